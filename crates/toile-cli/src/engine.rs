@@ -1,0 +1,201 @@
+//! A cloth being simulated, on the GPU or by the reference.
+
+use crate::adapter::Gpu;
+use anyhow::Result;
+use glam::Vec3;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use toile::gpu::{BodyMaps, PassTime, Surface, Timer, readback};
+use toile::model::{MapFrame, Merge, Model, Status, StepSettings};
+use toile::scene::{Mesh, Sphere};
+use toile::{Colliders, Simulation};
+use toile_reference::Reference;
+use toile_reference::maps::{self as reference_maps, render_maps};
+
+/// Steps that are timed pass by pass at the end of a run.
+const TIMED_STEPS: u32 = 20;
+
+/// What computes.
+pub enum Computer {
+    /// A device.
+    Gpu(Gpu),
+    /// The CPU reference.
+    Reference,
+}
+
+/// A surface that the cloth collides with, and the thickness that lies on it [m].
+pub struct Layer {
+    /// The surface.
+    pub mesh: Mesh,
+    /// Thickness of what lies on it [m].
+    pub thickness: f32,
+}
+
+/// A cloth being simulated.
+pub enum Engine<'a> {
+    /// On a device.
+    Gpu {
+        /// The device.
+        gpu: &'a Gpu,
+        /// The cloth.
+        simulation: Box<Simulation>,
+    },
+    /// By the reference.
+    Reference(Box<Reference>),
+}
+
+/// Positions, velocities and contacts at the end.
+pub struct State {
+    /// Positions [m], shape [particle_count].
+    pub positions: Vec<Vec3>,
+    /// Unit normals, shape [particle_count].
+    pub normals: Vec<Vec3>,
+    /// Which particles are in contact by the maps, shape [particle_count]; empty without a body.
+    pub touching: Vec<bool>,
+}
+
+impl Computer {
+    /// Name for the metrics.
+    pub fn name(&self) -> &str {
+        match self {
+            Computer::Gpu(gpu) => &gpu.name,
+            Computer::Reference => "reference",
+        }
+    }
+
+    /// A cloth at the start of its model.
+    pub fn start(
+        &self,
+        model: &Model,
+        settings: &StepSettings,
+        layers: &[Layer],
+        sphere: Option<Sphere>,
+        texel: f32,
+    ) -> Result<Engine<'_>> {
+        match self {
+            Computer::Gpu(gpu) => {
+                let maps = if layers.is_empty() { None } else { Some(Arc::new(draw_maps(gpu, layers, texel)?)) };
+                let simulation = Simulation::new(&gpu.device, model, settings, Colliders { maps, sphere })?;
+                Ok(Engine::Gpu { gpu, simulation: Box::new(simulation) })
+            }
+            Computer::Reference => {
+                let surfaces: Vec<_> = layers
+                    .iter()
+                    .map(|layer| reference_maps::Surface { mesh: &layer.mesh, thickness: layer.thickness })
+                    .collect();
+                let maps = (!surfaces.is_empty()).then(|| render_maps(&surfaces, texel));
+                let colliders = toile_reference::Colliders { maps, sphere };
+                Ok(Engine::Reference(Box::new(Reference::new(model, settings, colliders))))
+            }
+        }
+    }
+}
+
+fn draw_maps(gpu: &Gpu, layers: &[Layer], texel: f32) -> Result<BodyMaps> {
+    let bounds = layers
+        .iter()
+        .filter_map(|layer| layer.mesh.bounds().map(|[low, high]| [low - layer.thickness, high + layer.thickness]))
+        .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
+        .unwrap_or_default();
+    let maps = BodyMaps::new(&gpu.device, MapFrame::around(bounds, texel))?;
+    let surfaces: Vec<_> = layers.iter().map(|l| (Surface::new(&gpu.device, &l.mesh), l.thickness)).collect();
+    let drawn: Vec<_> = surfaces.iter().map(|(surface, thickness)| (surface, *thickness)).collect();
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    maps.record(&gpu.device, &mut encoder, &drawn);
+    gpu.queue.submit([encoder.finish()]);
+    Ok(maps)
+}
+
+impl Engine<'_> {
+    /// Does one frame and waits for it.
+    pub fn frame(&mut self) -> Result<Status> {
+        match self {
+            Engine::Gpu { gpu, simulation } => {
+                let mut encoder = gpu.device.create_command_encoder(&Default::default());
+                simulation.record(&gpu.device, &mut encoder);
+                gpu.queue.submit([encoder.finish()]);
+                gpu.device.poll(wgpu::PollType::wait_indefinitely())?;
+                Ok(simulation.status()?.unwrap_or_default())
+            }
+            Engine::Reference(reference) => {
+                reference.frame();
+                let status = reference.status();
+                if let Some(particle) = status.first_non_finite {
+                    return Err(toile::Error::Diverged {
+                        step: status.step,
+                        particle,
+                        count: status.non_finite_count,
+                    }
+                    .into());
+                }
+                Ok(status)
+            }
+        }
+    }
+
+    /// The same cloth with its seams merged.
+    pub fn sewn(self, model: &Model, merge: &Merge, settings: &StepSettings) -> Result<Self> {
+        match self {
+            Engine::Gpu { gpu, simulation } => {
+                let mut encoder = gpu.device.create_command_encoder(&Default::default());
+                let sewn = simulation.sewn(&gpu.device, &mut encoder, model, merge, settings)?;
+                gpu.queue.submit([encoder.finish()]);
+                Ok(Engine::Gpu { gpu, simulation: Box::new(sewn) })
+            }
+            Engine::Reference(reference) => Ok(Engine::Reference(Box::new(reference.sewn(model, settings, merge)))),
+        }
+    }
+
+    /// Reads the state back.
+    pub fn state(&self) -> Result<State> {
+        match self {
+            Engine::Gpu { gpu, simulation } => {
+                let read = |buffer: &wgpu::Buffer| -> Result<Vec<Vec3>> {
+                    let values = readback::read_vec4s(&gpu.device, &gpu.queue, buffer)?;
+                    Ok(values.into_iter().map(|v| v.truncate()).collect())
+                };
+                let touching = match simulation.contacts() {
+                    Some(buffer) => {
+                        let words = readback::read_vec4s(&gpu.device, &gpu.queue, buffer)?;
+                        words.chunks_exact(2).map(|contact| contact[0].w > 0.0).collect()
+                    }
+                    None => Vec::new(),
+                };
+                let frame = simulation.frame();
+                Ok(State { positions: read(&frame.positions)?, normals: read(&frame.normals)?, touching })
+            }
+            Engine::Reference(reference) => Ok(State {
+                positions: reference.positions().to_vec(),
+                normals: reference.normals(),
+                touching: reference.contacts().iter().map(|contact| contact.touching).collect(),
+            }),
+        }
+    }
+
+    /// The passes of a step and what each costs per step [ms]; empty by the reference or without timestamps.
+    /// It goes on by a few steps, so call it last.
+    pub fn pass_times(&mut self) -> Result<BTreeMap<String, PassTime>> {
+        let Engine::Gpu { gpu, simulation } = self else { return Ok(BTreeMap::new()) };
+        let Some(mut timer) = Timer::new(&gpu.device) else { return Ok(BTreeMap::new()) };
+        let mut sums: BTreeMap<String, PassTime> = BTreeMap::new();
+        for _ in 0..TIMED_STEPS {
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            simulation.record_timed_step(&gpu.device, &mut encoder, &mut timer);
+            gpu.queue.submit([encoder.finish()]);
+            for (kernel, time) in timer.read(&gpu.device, &gpu.queue)? {
+                let sum = sums.entry(kernel.name().to_owned()).or_default();
+                sum.dispatches = time.dispatches;
+                sum.milliseconds += time.milliseconds / f64::from(TIMED_STEPS);
+            }
+        }
+        Ok(sums)
+    }
+
+    /// Bytes on the device.
+    pub fn bytes(&self) -> u64 {
+        match self {
+            Engine::Gpu { simulation, .. } => simulation.bytes(),
+            Engine::Reference(_) => 0,
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! A cloth that has been simulated, and the way there.
+
+use crate::engine::{Computer, Engine, Layer, State};
+use crate::progress::Progress;
+use anyhow::{Context, Result, anyhow};
+use std::collections::BTreeMap;
+use std::time::Instant;
+use toile::gpu::PassTime;
+use toile::model::{Dressing, DressingError, Model, Stage, Status, StepSettings};
+use toile::scene::{Garment, Mesh, Settings, Sphere};
+
+/// A cloth that has been simulated.
+pub struct Worn {
+    /// Name of the garment or sheet.
+    pub name: String,
+    /// What was simulated last: the sewn model of a garment.
+    pub model: Model,
+    /// The numbers of its steps.
+    pub settings: StepSettings,
+    /// The cloth at the end, one vertex per particle.
+    pub mesh: Mesh,
+    /// Which particles are in contact by the maps; empty without a body.
+    pub touching: Vec<bool>,
+    /// Status at the end.
+    pub status: Status,
+    /// Steps sewn.
+    pub sewing_steps: u64,
+    /// Steps draped or run.
+    pub draping_steps: u64,
+    /// Widest seam gap when the pairs were merged [m].
+    pub seam_gap: f32,
+    /// What was seen along the way.
+    pub log: Log,
+    /// Cost of a step by pass.
+    pub pass_times: BTreeMap<String, PassTime>,
+    /// Bytes on the device.
+    pub gpu_bytes: u64,
+}
+
+/// What was seen along the way.
+#[derive(Default)]
+pub struct Log {
+    /// Largest elongation at the end of any frame [1].
+    pub elongation_max: f32,
+    step_ms: Vec<f64>,
+}
+
+/// What a cloth is simulated with.
+pub struct Surroundings<'a> {
+    /// What computes.
+    pub computer: &'a Computer,
+    /// Body and inner garments.
+    pub layers: &'a [Layer],
+    /// An analytic sphere.
+    pub sphere: Option<Sphere>,
+    /// Edge length of a map texel [m].
+    pub texel: f32,
+    /// No progress.
+    pub quiet: bool,
+}
+
+impl Log {
+    fn frame(&mut self, engine: &mut Engine<'_>, settings: &StepSettings) -> Result<Status> {
+        let start = Instant::now();
+        let status = engine.frame()?;
+        self.step_ms.push(1e3 * start.elapsed().as_secs_f64() / f64::from(settings.steps_per_frame));
+        self.elongation_max = self.elongation_max.max(status.elongation_max);
+        Ok(status)
+    }
+
+    /// Median wall time of a step [ms].
+    pub fn step_ms_median(&self) -> f64 {
+        let mut times = self.step_ms.clone();
+        times.sort_by(f64::total_cmp);
+        times.get(times.len() / 2).copied().unwrap_or(0.0)
+    }
+}
+
+/// Sews a garment around what it finds, and drapes it until it is at rest.
+pub static DEBUG: std::sync::OnceLock<Mesh> = std::sync::OnceLock::new();
+pub fn dress(garment: &Garment, settings: &Settings, around: &Surroundings<'_>) -> Result<Worn> {
+    let _ = DEBUG.set(around.layers[0].mesh.clone());
+    let open = Model::from_garment(garment, settings)?;
+    let open_settings = StepSettings::new(settings, &open).sewing();
+    let mut engine = around.computer.start(&open, &open_settings, around.layers, around.sphere, around.texel)?;
+    let mut dressing = Dressing::new(&open, &open_settings);
+    let mut log = Log::default();
+    let progress = Progress::new(&garment.name, around.quiet);
+    while dressing.stage() == Stage::Sewing {
+        let status = log.frame(&mut engine, &open_settings)?;
+        progress.say(format!("sewing, step {}, widest gap {:.1} mm", status.step, 1e3 * status.seam_gap_max));
+        if let Err(error) = dressing.advance(&status, open.particle_count()) {
+            return Err(name_seam(error, &open, &engine, &garment.name));
+        }
+    }
+    let (sewn, merge) = open.sewn();
+    let sewn_settings = StepSettings::new(settings, &sewn).draping();
+    engine = engine.sewn(&sewn, &merge, &sewn_settings)?;
+    let mut status = Status::default();
+    while dressing.stage() == Stage::Draping {
+        status = log.frame(&mut engine, &sewn_settings)?;
+        let energy = status.kinetic_energy / sewn.particle_count() as f32;
+        progress.say(format!("draping, step {}, {energy:.1e} J per particle", status.step));
+        if let Err(error) = dressing.advance(&status, sewn.particle_count()) { eprintln!("{status:?}");
+            let a = engine.state()?; engine.frame()?; let b = engine.state()?;
+            let mut rows: Vec<(f32, usize)> = (0..a.positions.len()).map(|i| (60.0 * a.positions[i].distance(b.positions[i]), i)).collect();
+            rows.sort_by(|x, y| y.0.total_cmp(&x.0));
+            for (v, i) in rows.iter().take(25) { eprintln!("{v:.3} {i} {:?} touching {} quads {}", b.positions[*i], b.touching[*i], sewn.particle_quads.row(*i).len()); }
+            eprintln!("median {} p90 {}", rows[rows.len()/2].0, rows[rows.len()/10].0);
+            let mut e: Vec<(f32, _)> = sewn.limits.iter().map(|l| (b.positions[l.ends[0] as usize].distance(b.positions[l.ends[1] as usize])/l.rest_length - 1.0, l)).collect();
+            e.sort_by(|x, y| y.0.total_cmp(&x.0));
+            for (v, l) in e.iter().take(15) { eprintln!("elong {v:.3} {:?} {:?} rest {}", l.ends, b.positions[l.ends[0] as usize], l.rest_length); }
+            return Err(name_seam(error, &sewn, &engine, &garment.name)); }
+    }
+    progress.finish(format!("dressed in {} + {} steps", dressing.sewing_steps(), dressing.draping_steps()));
+    let mut worn = finish(&garment.name, sewn, sewn_settings, engine, status, log)?;
+    worn.sewing_steps = dressing.sewing_steps();
+    worn.draping_steps = dressing.draping_steps();
+    worn.seam_gap = dressing.seam_gap();
+    Ok(worn)
+}
+
+/// Runs a cloth without seams for a number of frames.
+pub fn run(name: &str, model: Model, frames: u32, settings: &Settings, around: &Surroundings<'_>) -> Result<Worn> {
+    let settings = StepSettings::new(settings, &model);
+    let mut engine = around.computer.start(&model, &settings, around.layers, around.sphere, around.texel)?;
+    let mut log = Log::default();
+    let mut status = Status::default();
+    let progress = Progress::new(name, around.quiet);
+    for frame in 1..=frames {
+        status = log.frame(&mut engine, &settings)?;
+        progress.say(format!("frame {frame} of {frames}, elongation {:.3}", status.elongation_max));
+    }
+    progress.finish(format!("{frames} frames of {} steps", settings.steps_per_frame));
+    finish(name, model, settings, engine, status, log)
+}
+
+fn finish(
+    name: &str,
+    model: Model,
+    settings: StepSettings,
+    mut engine: Engine<'_>,
+    status: Status,
+    log: Log,
+) -> Result<Worn> {
+    let State { positions, normals, touching } = engine.state()?;
+    Ok(Worn {
+        name: name.to_owned(),
+        mesh: Mesh { positions, normals, triangles: model.triangles() },
+        model,
+        settings,
+        touching,
+        status,
+        sewing_steps: 0,
+        draping_steps: status.step,
+        seam_gap: 0.0,
+        log,
+        gpu_bytes: engine.bytes(),
+        pass_times: engine.pass_times()?,
+    })
+}
+
+/// Names the seam that stayed open.
+fn name_seam(error: DressingError, open: &Model, engine: &Engine<'_>, garment: &str) -> anyhow::Error {
+    // DEBUG
+    if let Ok(state) = engine.state() {
+        let mesh = Mesh { positions: state.positions, normals: state.normals, triangles: open.triangles() };
+        let body = DEBUG.get().unwrap();
+        let drawn = [crate::picture::Drawn { mesh: body, material: crate::picture::Material::SKIN }, crate::picture::Drawn { mesh: &mesh, material: crate::picture::Material::cloth(0) }];
+        let strip: Vec<_> = [crate::picture::View::Front, crate::picture::View::Back, crate::picture::View::Side].iter().map(|v| crate::picture::render(&drawn, *v, 900).unwrap()).collect();
+        crate::picture::save_png(std::path::Path::new("/tmp/debug.png"), &crate::picture::strip(&strip)).unwrap();
+    }
+    let seam = match (&error, engine.state()) {
+        (DressingError::SeamsOpen { .. }, Ok(state)) => {
+            open.widest_seam(&state.positions).map(|(name, _)| format!(", seam {name}")).unwrap_or_default()
+        }
+        _ => String::new(),
+    };
+    anyhow!(error).context(format!("garment {garment}{seam}"))
+}

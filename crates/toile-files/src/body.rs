@@ -1,0 +1,105 @@
+//! Bodies from OBJ, PLY, glTF and GLB files.
+
+use crate::error::{Fault, FileError, Found};
+use crate::{gltf_body, obj, ply, source};
+use std::path::Path;
+use toile_scene::Mesh;
+
+/// Heights [m] that a body can have. Outside, the unit is wrong rather than the person.
+pub(crate) const HEIGHTS: [f64; 2] = [0.2, 4.0];
+
+/// The endings that [`read_body`] knows.
+const ENDINGS: &str = ".obj, .ply, .gltf, .glb";
+
+/// How a body file is read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyOptions {
+    /// Length of the file's unit [m], positive: 0.01 for centimetres.
+    pub metres_per_unit: f64,
+    /// Animation clip of a glTF file whose pose is taken; `None` takes the nodes as they stand (the rest pose).
+    pub clip: Option<String>,
+    /// Time in the clip [s]; before its first and after its last key the pose stands still.
+    pub time: f64,
+}
+
+impl Default for BodyOptions {
+    fn default() -> Self {
+        Self { metres_per_unit: 1.0, clip: None, time: 0.0 }
+    }
+}
+
+/// A body as it was read.
+#[derive(Clone, Debug)]
+pub struct BodyFile {
+    /// The clean mesh [m]: equal positions welded, faces outward, a unit normal at every vertex.
+    pub mesh: Mesh,
+    /// What is unusual about the body or had to be mended, each with its number. Scans are rarely without.
+    pub warnings: Vec<String>,
+}
+
+/// Reads a body; the ending of the path says the format.
+///
+/// # Errors
+///
+/// [`FileError`] when the file cannot be read, breaks its format, has no triangle, has a coordinate that is not finite or
+/// an index without a vertex, lacks the named clip, or is no body's size (0.2 m to 4 m tall). Holes, noise, non-manifold
+/// edges, repeated or empty triangles and stray vertices are no errors but warnings.
+pub fn read_body(path: &Path, options: &BodyOptions) -> Result<BodyFile, FileError> {
+    let bytes = source::read_bytes(path)?;
+    read(&bytes, path, path.parent(), options).map_err(|found| found.in_file(path))
+}
+
+/// Reads a body from bytes; the ending of the name says the format. A glTF file must bring its buffers along.
+///
+/// # Errors
+///
+/// As [`read_body`].
+pub fn parse_body(bytes: &[u8], name: &str, options: &BodyOptions) -> Result<BodyFile, FileError> {
+    read(bytes, Path::new(name), None, options).map_err(|found| found.in_file(name))
+}
+
+fn read(bytes: &[u8], name: &Path, folder: Option<&Path>, options: &BodyOptions) -> Result<BodyFile, Found> {
+    assert!(options.metres_per_unit > 0.0, "the length of a unit is positive");
+    let ending = name.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    let mut warnings = Vec::new();
+    let soup = match ending.to_ascii_lowercase().as_str() {
+        "obj" => obj::read(bytes)?,
+        "ply" => ply::read(bytes)?,
+        "gltf" | "glb" => gltf_body::read(bytes, folder, options, &mut warnings)?,
+        _ => return Err(Fault::UnknownFormat(ENDINGS).into()),
+    };
+    let mesh = soup.clean(options.metres_per_unit, &mut warnings)?;
+    check_height(&mesh, options.metres_per_unit)?;
+    Ok(BodyFile { mesh, warnings })
+}
+
+fn check_height(mesh: &Mesh, metres_per_unit: f64) -> Result<(), Found> {
+    let [low, high] = mesh.bounds().expect("a clean mesh has vertices");
+    let height = f64::from(high.y) - f64::from(low.y);
+    let plausible = |height: f64| (HEIGHTS[0]..=HEIGHTS[1]).contains(&height);
+    if plausible(height) {
+        return Ok(());
+    }
+    let typical = 1.7;
+    let unit = [("mm", 0.001), ("cm", 0.01), ("m", 1.0)]
+        .map(|(unit, metres)| (unit, height / metres_per_unit * metres))
+        .into_iter()
+        .filter(|(_, height)| plausible(*height))
+        .min_by(|a, b| (a.1 / typical).ln().abs().total_cmp(&(b.1 / typical).ln().abs()));
+    let advice = match unit {
+        Some((unit, height)) => {
+            format!("give --body-units {unit} if it should be {} m", rounded(height))
+        }
+        None => "none of --body-units mm, cm or m makes it a body's size".into(),
+    };
+    Err(Fault::BodyUnits { height: rounded(height), advice }.into())
+}
+
+/// Three significant digits, for a sentence.
+pub(crate) fn rounded(value: f64) -> String {
+    if value >= 1e6 {
+        return format!("{value:.2e}");
+    }
+    let digits = if value > 0.0 { (2.0 - value.log10().floor()).clamp(0.0, 12.0) as usize } else { 0 };
+    format!("{value:.digits$}")
+}

@@ -1,0 +1,265 @@
+//! Garments from GarmentCode's JSON.
+
+use crate::body::rounded;
+use crate::error::{Fault, FileError, Found, Place};
+use crate::garment_json::{self, CurvatureJson, EdgeJson, Number, PanelJson, SideJson, StitchPart};
+use crate::{crossing, source};
+use glam::{DQuat, DVec2, DVec3, EulerRot};
+use std::collections::HashMap;
+use std::path::Path;
+use toile_scene::{Curve, Edge, EdgeRef, Garment, Panel, Placement, Seam};
+
+/// Largest side of a panel's box [m]. Above, the unit is wrong.
+pub(crate) const LARGEST_PANEL: f64 = 10.0;
+
+/// Least distance of the ends of an edge [m]. Below, it is a slip of the pattern.
+const SHORTEST_EDGE: f64 = 1e-6;
+
+/// Most edges of a panel. Patterns have tens; comparing very many with each other would take forever.
+const MOST_EDGES: usize = 2048;
+
+/// How much the radius of an arc may fall short of half its chord by rounding [1].
+const RADIUS_ROUNDING: f64 = 1e-6;
+
+/// Distance [m] of the polyline from the curve where the outline is tested for crossings.
+const CROSSING_TOLERANCE: f64 = 1e-4;
+
+/// Reads a garment in GarmentCode's JSON.
+///
+/// # Errors
+///
+/// [`FileError`] with panel and edge when the file cannot be read, is not valid JSON, has an outline that is open, crosses
+/// itself or has a coordinate that is not finite, an edge whose curve cannot exist, a panel larger than 10 m, or a stitch
+/// to a panel or edge that does not exist.
+pub fn read_garment(path: &Path) -> Result<Garment, FileError> {
+    let text = source::read_text(path)?;
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    parse(&text, &stem).map_err(|found| found.in_file(path))
+}
+
+/// Reads a garment from text; `name` stands for the path in errors, and without its ending it is the garment's name.
+///
+/// # Errors
+///
+/// As [`read_garment`].
+pub fn parse_garment(text: &str, name: &str) -> Result<Garment, FileError> {
+    let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
+    parse(text, &stem).map_err(|found| found.in_file(name))
+}
+
+fn parse(text: &str, stem: &str) -> Result<Garment, Found> {
+    let json = garment_json::read(text).map_err(|error| {
+        // serde_json repeats the place at the end of its message.
+        let message = error.to_string();
+        let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(start, _)| start);
+        Found::malformed(Place::Column(error.line(), error.column()), format!("the JSON is not valid: {message}"))
+    })?;
+    let units_in_meter = json.properties.units_in_meter.0;
+    if !(units_in_meter.is_finite() && units_in_meter > 0.0) {
+        let message = format!("it is {units_in_meter} and must be a positive number");
+        return Err(Found::malformed(Place::Key("properties.units_in_meter".into()), message));
+    }
+    if json.pattern.panels.0.is_empty() {
+        return Err(Found::malformed(Place::File, "the garment has no panel"));
+    }
+    let mut panels = Vec::new();
+    let mut numbers = HashMap::new();
+    for (name, panel) in &json.pattern.panels.0 {
+        if numbers.insert(name.as_str(), panels.len()).is_some() {
+            return Err(Found::malformed(Place::Panel(name.clone()), "there are two panels of this name"));
+        }
+        panels.push(convert_panel(name, panel, units_in_meter)?);
+    }
+    let mut seams = Vec::new();
+    let mut sewn = HashMap::new();
+    for (index, stitch) in json.pattern.stitches.iter().enumerate() {
+        seams.push(convert_stitch(index, stitch, &panels, &numbers, &mut sewn)?);
+    }
+    let name = stem.strip_suffix("_specification").unwrap_or(stem).to_string();
+    Ok(Garment { name, panels, seams })
+}
+
+fn convert_panel(name: &str, json: &PanelJson, units_in_meter: f64) -> Result<Panel, Found> {
+    let place = || Place::Panel(name.into());
+    let point = |[x, y]: [Number; 2]| DVec2::new(x.0, y.0) / units_in_meter;
+    for (index, vertex) in json.vertices.iter().enumerate() {
+        if !point(*vertex).is_finite() {
+            let what = format!("vertex {index} at ({}, {})", vertex[0].0, vertex[1].0);
+            return Err(Found::at(place(), Fault::NotFinite(what)));
+        }
+    }
+    let translation = DVec3::from(json.translation.map(|n| n.0)) / units_in_meter;
+    let [x, y, z] = json.rotation.map(|n| n.0.to_radians());
+    let rotation = DQuat::from_euler(EulerRot::ZYX, z, y, x);
+    if !(translation.is_finite() && rotation.is_finite()) {
+        return Err(Found::at(place(), Fault::NotFinite("the translation or rotation".into())));
+    }
+    let ends = loop_ends(name, json)?;
+    let mut edges = Vec::new();
+    for (index, (edge, [a, b])) in json.edges.iter().zip(&ends).enumerate() {
+        let [a, b] = [point(json.vertices[*a]), point(json.vertices[*b])];
+        let curve = convert_curve(edge, a, b, units_in_meter)
+            .map_err(|fault| Found::at(Place::Edge(name.into(), index), fault))?;
+        edges.push(Edge { start: a, curve, label: edge.label.clone() });
+    }
+    let panel = Panel { name: name.into(), edges, placement: Placement { rotation, translation } };
+    check_size(&panel, units_in_meter)?;
+    let polylines: Vec<_> = (0..panel.edges.len()).map(|edge| panel.polyline(edge, CROSSING_TOLERANCE)).collect();
+    match crossing::first_crossing(&polylines) {
+        Some((edges, at)) => Err(Found::at(place(), Fault::SelfCrossing { edges, x: at.x, y: at.y })),
+        None => Ok(panel),
+    }
+}
+
+/// The vertices of each edge's ends, checked to be one closed loop in order.
+fn loop_ends(name: &str, json: &PanelJson) -> Result<Vec<[usize; 2]>, Found> {
+    let count = json.vertices.len();
+    let mut ends = Vec::new();
+    for (index, edge) in json.edges.iter().enumerate() {
+        let place = || Place::Edge(name.into(), index);
+        let vertex = |written: i64| {
+            usize::try_from(written)
+                .ok()
+                .filter(|vertex| *vertex < count)
+                .ok_or_else(|| Found::at(place(), Fault::OutOfRange { what: "vertex", index: written, count }))
+        };
+        ends.push([vertex(edge.endpoints[0])?, vertex(edge.endpoints[1])?]);
+    }
+    let curved = json.edges.iter().any(|edge| edge.curvature.is_some());
+    let least = if curved { 2 } else { 3 };
+    if ends.len() < least {
+        let message = format!("the outline has {} edges, it needs {least}", ends.len());
+        return Err(Found::malformed(Place::Panel(name.into()), message));
+    }
+    if ends.len() > MOST_EDGES {
+        let what = format!("an outline of more than {MOST_EDGES} edges");
+        return Err(Found::at(Place::Panel(name.into()), Fault::Unsupported(what)));
+    }
+    for (index, [_, end]) in ends.iter().enumerate() {
+        let next = (index + 1) % ends.len();
+        if *end != ends[next][0] {
+            let message = format!(
+                "the outline is not closed: the edge ends at vertex {end} and edge {next} starts at vertex {}",
+                ends[next][0]
+            );
+            return Err(Found::malformed(Place::Edge(name.into(), index), message));
+        }
+    }
+    Ok(ends)
+}
+
+fn convert_curve(edge: &EdgeJson, a: DVec2, b: DVec2, units_in_meter: f64) -> Result<Curve, Fault> {
+    let chord = b - a;
+    if chord.length() < SHORTEST_EDGE {
+        let message = format!("its ends are the same point, ({}, {}) m", a.x, a.y);
+        return Err(Fault::Malformed(message));
+    }
+    let control = |[along, aside]: [f64; 2]| {
+        let point = a + chord * along + chord.perp() * aside;
+        if point.is_finite() {
+            Ok(point)
+        } else {
+            Err(Fault::NotFinite(format!("the control point ({along}, {aside})")))
+        }
+    };
+    Ok(match &edge.curvature {
+        None => Curve::Straight,
+        Some(CurvatureJson::Quadratic(point)) => Curve::Quadratic { control: control(*point)? },
+        Some(CurvatureJson::Cubic([first, second])) => Curve::Cubic { controls: [control(*first)?, control(*second)?] },
+        Some(CurvatureJson::Circle { radius, large, right }) => {
+            let (radius, half) = (radius / units_in_meter, 0.5 * chord.length());
+            if !radius.is_finite() {
+                return Err(Fault::NotFinite("the radius".into()));
+            }
+            if radius < half * (1.0 - RADIUS_ROUNDING) {
+                return Err(Fault::SmallRadius { radius, chord: 2.0 * half });
+            }
+            Curve::Arc { radius: radius.max(half), large: *large, right: *right }
+        }
+        Some(CurvatureJson::Unknown(message)) => return Err(Fault::Malformed(message.clone())),
+    })
+}
+
+/// Refuses a panel that no garment has. Control points count, because a curve stays within their hull.
+fn check_size(panel: &Panel, units_in_meter: f64) -> Result<(), Found> {
+    let mut low = DVec2::INFINITY;
+    let mut high = DVec2::NEG_INFINITY;
+    let mut include = |point: DVec2| {
+        low = low.min(point);
+        high = high.max(point);
+    };
+    for (index, edge) in panel.edges.iter().enumerate() {
+        include(edge.start);
+        match edge.curve {
+            Curve::Straight => {}
+            Curve::Quadratic { control } => include(control),
+            Curve::Cubic { controls } => controls.into_iter().for_each(&mut include),
+            // A small arc is no wider than its chord, whatever its radius.
+            Curve::Arc { radius, large, .. } => {
+                let end = panel.edges[(index + 1) % panel.edges.len()].start;
+                let reach = if large { 2.0 * radius } else { 0.5 * edge.start.distance(end) };
+                let middle = edge.start.midpoint(end);
+                include(middle - reach);
+                include(middle + reach);
+            }
+        }
+    }
+    let size = (high - low).max_element();
+    if size > LARGEST_PANEL {
+        let fault = Fault::PanelUnits { size: rounded(size), units_in_meter };
+        return Err(Found::at(Place::Panel(panel.name.clone()), fault));
+    }
+    Ok(())
+}
+
+/// `numbers` finds a panel by its name; `sewn` remembers which stitch took an edge.
+fn convert_stitch(
+    index: usize,
+    stitch: &[StitchPart],
+    panels: &[Panel],
+    numbers: &HashMap<&str, usize>,
+    sewn: &mut HashMap<EdgeRef, usize>,
+) -> Result<Seam, Found> {
+    let malformed = |message: &str| Found::malformed(Place::Stitch(index), message);
+    let (first, second, right_wrong) = match stitch {
+        [StitchPart::Side(first), StitchPart::Side(second)] => (first, second, false),
+        [StitchPart::Side(first), StitchPart::Side(second), StitchPart::Flag(flag)] => {
+            if flag != "right_wrong" {
+                return Err(malformed(&format!("its third entry \"{flag}\" is not \"right_wrong\"")));
+            }
+            (first, second, true)
+        }
+        _ => {
+            return Err(malformed("it must name two edges, and may add \"right_wrong\""));
+        }
+    };
+    let side = |side: &SideJson| {
+        let Some(panel) = numbers.get(side.panel.as_str()).copied() else {
+            let known = panels.iter().map(|panel| panel.name.clone()).collect();
+            let fault = Fault::Unknown { what: "panel", name: side.panel.clone(), known };
+            return Err(Found::at(Place::Stitch(index), fault));
+        };
+        let count = panels[panel].edges.len();
+        match usize::try_from(side.edge).ok().filter(|edge| *edge < count) {
+            Some(edge) => Ok(EdgeRef { panel, edge }),
+            None => {
+                let message =
+                    format!("panel \"{}\" has no edge {}: its edges are 0 to {}", side.panel, side.edge, count - 1);
+                Err(malformed(&message))
+            }
+        }
+    };
+    let sides = [side(first)?, side(second)?];
+    if sides[0] == sides[1] {
+        let message = format!("edge {} of panel \"{}\" is stitched to itself", first.edge, first.panel);
+        return Err(malformed(&message));
+    }
+    for (side, written) in sides.iter().zip([first, second]) {
+        if let Some(known) = sewn.insert(*side, index) {
+            let message =
+                format!("edge {} of panel \"{}\" is already sewn by stitch {known}", written.edge, written.panel);
+            return Err(malformed(&message));
+        }
+    }
+    Ok(Seam { sides, right_wrong })
+}

@@ -1,0 +1,226 @@
+//! A glTF or GLB file with its buffers, and the numbers of its accessors.
+
+use crate::error::{Fault, Found, Place};
+use base64::Engine;
+use gltf::accessor::{DataType, Dimensions};
+use gltf::buffer::Source;
+use gltf::json::validation::Checked;
+use std::borrow::Cow;
+use std::path::Path;
+
+/// A glTF file with its buffers.
+pub(crate) struct GltfFile {
+    pub document: gltf::Document,
+    buffers: Vec<Vec<u8>>,
+}
+
+impl GltfFile {
+    /// Opens the bytes of a .gltf or .glb file; buffers in files of their own lie relative to the folder.
+    pub fn open(bytes: &[u8], folder: Option<&Path>) -> Result<Self, Found> {
+        if bytes.starts_with(b"glTF") {
+            check_chunks(bytes)?;
+        }
+        let gltf::Gltf { document, mut blob } = gltf::Gltf::from_slice_without_validation(bytes).map_err(gltf_fault)?;
+        let root = document.into_json();
+        check_positions(&root)?;
+        let document = gltf::Document::from_json(root).map_err(gltf_fault)?;
+        let buffers = document
+            .buffers()
+            .map(|buffer| {
+                let what = format!("buffer {}", buffer.index());
+                let data = match buffer.source() {
+                    Source::Bin => blob
+                        .take()
+                        .ok_or_else(|| Found::malformed(Place::File, format!("{what} is not in the file")))?,
+                    Source::Uri(uri) => read_uri(uri, &what, folder)?,
+                };
+                if data.len() < buffer.length() {
+                    let (needed, available) = (buffer.length() as u128, data.len());
+                    return Err(Fault::Truncated { what, needed, available }.into());
+                }
+                Ok(data)
+            })
+            .collect::<Result<_, Found>>()?;
+        Ok(Self { document, buffers })
+    }
+
+    /// The numbers of an accessor, N per element. Normalised integers become 0..1 or −1..1.
+    pub fn read<const N: usize>(
+        &self,
+        accessor: &gltf::Accessor<'_>,
+        dimensions: Dimensions,
+    ) -> Result<Vec<[f32; N]>, Found> {
+        let normalise = if accessor.normalized() { integer_range(accessor.data_type()) } else { 1.0 };
+        self.decode(accessor, dimensions, |bytes| {
+            let value = match accessor.data_type() {
+                DataType::F32 => f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]),
+                DataType::I8 => f32::from(i8::from_le_bytes([bytes[0]])),
+                DataType::I16 => f32::from(i16::from_le_bytes([bytes[0], bytes[1]])),
+                _ => unsigned(bytes) as f32,
+            };
+            (value / normalise).max(if normalise > 1.0 { -1.0 } else { f32::NEG_INFINITY })
+        })
+    }
+
+    /// The indices of an accessor, N per element.
+    pub fn read_indices<const N: usize>(
+        &self,
+        accessor: &gltf::Accessor<'_>,
+        dimensions: Dimensions,
+    ) -> Result<Vec<[u32; N]>, Found> {
+        if !matches!(accessor.data_type(), DataType::U8 | DataType::U16 | DataType::U32) {
+            let place = Place::Accessor(accessor.index());
+            return Err(Found::malformed(place, "indices must be unsigned integers"));
+        }
+        self.decode(accessor, dimensions, unsigned)
+    }
+
+    fn decode<T: Copy + Default, const N: usize>(
+        &self,
+        accessor: &gltf::Accessor<'_>,
+        dimensions: Dimensions,
+        value: impl Fn(&[u8]) -> T,
+    ) -> Result<Vec<[T; N]>, Found> {
+        let place = Place::Accessor(accessor.index());
+        if accessor.dimensions() != dimensions {
+            let message = format!("it must be {dimensions:?} and is {:?}", accessor.dimensions());
+            return Err(Found::malformed(place, message));
+        }
+        if accessor.sparse().is_some() {
+            return Err(Found::at(place, Fault::Unsupported("a sparse accessor".into())));
+        }
+        let Some(view) = accessor.view() else {
+            return Err(Found::malformed(place, "it has no data"));
+        };
+        let size = accessor.data_type().size();
+        let element = size * N;
+        let stride = view.stride().unwrap_or(element);
+        if stride < element {
+            let message = format!("its stride of {stride} bytes is below the {element} of an element");
+            return Err(Found::malformed(place, message));
+        }
+        let buffer = &self.buffers[view.buffer().index()];
+        let start = view.offset() as u128 + accessor.offset() as u128;
+        let view_end = (view.offset() as u128 + view.length() as u128).min(buffer.len() as u128);
+        let count = accessor.count();
+        let needed = match count {
+            0 => 0,
+            _ => (count as u128 - 1) * stride as u128 + element as u128,
+        };
+        if start + needed > view_end {
+            let what = format!("an accessor of {count} elements");
+            let available = view_end.saturating_sub(start) as usize;
+            return Err(Found::at(place, Fault::Truncated { what, needed, available }));
+        }
+        let bytes = &buffer[start as usize..(start + needed) as usize];
+        Ok(bytes.chunks(stride).map(|chunk| std::array::from_fn(|i| value(&chunk[i * size..(i + 1) * size]))).collect())
+    }
+}
+
+fn unsigned(bytes: &[u8]) -> u32 {
+    bytes.iter().rev().fold(0, |value, byte| (value << 8) | u32::from(*byte))
+}
+
+/// The integer that stands for 1 in a normalised accessor.
+fn integer_range(data_type: DataType) -> f32 {
+    match data_type {
+        DataType::I8 => 127.0,
+        DataType::U8 => 255.0,
+        DataType::I16 => 32_767.0,
+        DataType::U16 => 65_535.0,
+        DataType::U32 | DataType::F32 => 1.0,
+    }
+}
+
+/// Compares the lengths that a GLB declares with the file, so that the message can say what is missing and where.
+fn check_chunks(bytes: &[u8]) -> Result<(), Found> {
+    let word = |at: usize| bytes.get(at..at + 4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]) as usize);
+    let truncated = |at: usize, what: &str, needed: usize| {
+        let available = bytes.len().saturating_sub(at);
+        Found::at(
+            Place::Byte(at.min(bytes.len())),
+            Fault::Truncated { what: what.into(), needed: needed as u128, available },
+        )
+    };
+    let (Some(version), Some(length)) = (word(4), word(8)) else {
+        return Err(truncated(0, "the GLB header", 12));
+    };
+    if version != 2 {
+        return Err(Found::malformed(Place::Byte(4), format!("GLB version {version} is not 2")));
+    }
+    if length > bytes.len() {
+        return Err(truncated(0, "the GLB file by its header", length));
+    }
+    if length < 12 {
+        let message = format!("the GLB header declares {length} bytes, less than the header itself");
+        return Err(Found::malformed(Place::Byte(8), message));
+    }
+    let mut at = 12;
+    while at < length {
+        let Some(chunk) = word(at).filter(|_| word(at + 4).is_some()) else {
+            return Err(truncated(at, "a GLB chunk header", 8));
+        };
+        if chunk > length.saturating_sub(at + 8) {
+            return Err(truncated(at + 8, "a GLB chunk", chunk));
+        }
+        at += 8 + chunk;
+    }
+    Ok(())
+}
+
+/// The validation of the crate indexes the accessors of positions without a look at their number, and would panic.
+fn check_positions(root: &gltf::json::Root) -> Result<(), Found> {
+    let count = root.accessors.len();
+    let positions = Checked::Valid(gltf::Semantic::Positions);
+    for (number, mesh) in root.meshes.iter().enumerate() {
+        for primitive in &mesh.primitives {
+            let accessor = primitive.attributes.get(&positions).map(|accessor| accessor.value());
+            if let Some(accessor) = accessor.filter(|accessor| *accessor >= count) {
+                let index = i64::try_from(accessor).unwrap_or(i64::MAX);
+                let place = Place::Key(format!("meshes[{number}].primitives.attributes.POSITION"));
+                return Err(Found::at(place, Fault::OutOfRange { what: "accessor", index, count }));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn gltf_fault(error: gltf::Error) -> Found {
+    match error {
+        gltf::Error::Deserialize(error) => {
+            let place = match error.line() {
+                0 => Place::File,
+                line => Place::Column(line, error.column()),
+            };
+            Found::malformed(place, format!("the glTF JSON is not valid: {error}"))
+        }
+        gltf::Error::Validation(errors) => {
+            let (place, message) = match errors.first() {
+                Some((path, error)) => (Place::Key(path.to_string()), error.to_string()),
+                None => (Place::File, "it is not valid glTF".into()),
+            };
+            Found::malformed(place, format!("the glTF is not valid: {message}"))
+        }
+        error => Found::malformed(Place::File, format!("it is not valid glTF: {error}")),
+    }
+}
+
+fn read_uri(uri: &str, what: &str, folder: Option<&Path>) -> Result<Vec<u8>, Found> {
+    if let Some(data) = uri.strip_prefix("data:") {
+        let Some((_, text)) = data.split_once(";base64,") else {
+            let message = format!("the data URI of {what} is not base64");
+            return Err(Found::malformed(Place::File, message));
+        };
+        return base64::engine::general_purpose::STANDARD.decode(text).map_err(|error| {
+            let message = format!("the data URI of {what} is not valid base64: {error}");
+            Found::malformed(Place::File, message)
+        });
+    }
+    let Some(folder) = folder else {
+        let message = format!("{what} lies in the file \"{uri}\", which bytes in memory cannot have");
+        return Err(Found::malformed(Place::File, message));
+    };
+    let name: Cow<'_, str> = percent_encoding::percent_decode_str(uri).decode_utf8_lossy();
+    crate::source::read_bytes(&folder.join(name.as_ref()))
+        .map_err(|error| Found::malformed(Place::File, format!("{what} cannot be read: {error}")))
+}

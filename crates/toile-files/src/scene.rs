@@ -1,0 +1,214 @@
+//! Scenes from TOML.
+
+use crate::body::{BodyOptions, read_body};
+use crate::error::{FileError, Found, Place};
+use crate::fabric::{self, Problem};
+use crate::garment::read_garment;
+use crate::scene_toml::{
+    BodyToml, CornerToml, FrictionToml, PinToml, RuleToml, SceneToml, SheetToml, SphereToml, UnitsToml,
+};
+use crate::{source, toml_text};
+use glam::{DVec2, DVec3};
+use std::path::Path;
+use toile_scene::{
+    Body, Cloth, Fabric, Friction, Pin, Rule, Scene, Settings, Sheet, Sphere, SphereMotion, VelocityModification,
+};
+
+/// Frames of a scene that does not say: two seconds at 60 per second.
+const FRAMES: u32 = 120;
+
+/// Most particles along one side of a sheet. Above, a slip of the keyboard would ask for all memory.
+const MOST_COLUMNS: u32 = 8192;
+
+/// A scene as it was read.
+#[derive(Clone, Debug)]
+pub struct SceneFile {
+    /// The scene.
+    pub scene: Scene,
+    /// Number of frames that it runs.
+    pub frames: u32,
+    /// What is unusual about its bodies; see [`BodyFile::warnings`](crate::BodyFile::warnings).
+    pub warnings: Vec<String>,
+}
+
+/// Reads a scene. Files that it names lie relative to it.
+///
+/// Each override sets one key: `("n", "128")`, `("fabric.threshold", "0.01")`, `("sphere.0.radius", "0.3")`. Its value is
+/// TOML, or a name without quotes.
+///
+/// # Errors
+///
+/// [`FileError`] with line or key when the scene or a file that it names cannot be read, is not valid, or has an unknown key
+/// (the known ones are listed) or an impossible value.
+pub fn read_scene(path: &Path, overrides: &[(String, String)]) -> Result<SceneFile, FileError> {
+    let text = source::read_text(path)?;
+    let toml: SceneToml = toml_text::override_keys(&text, overrides).map_err(|found| found.in_file(path))?;
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let folder = path.parent().unwrap_or(Path::new(""));
+    convert(toml, &stem, folder).map_err(|problem| problem.in_file(path))
+}
+
+fn convert(toml: SceneToml, stem: &str, folder: &Path) -> Result<SceneFile, Problem> {
+    let settings = settings(&toml, folder)?;
+    let mut cloths = Vec::new();
+    for (index, sheet) in toml.sheet.iter().enumerate() {
+        cloths.push(Cloth::Sheet(convert_sheet(index, sheet, toml.n)?));
+    }
+    for garment in &toml.garment {
+        cloths.push(Cloth::Garment(read_garment(&folder.join(&garment.file))?));
+    }
+    if cloths.is_empty() {
+        let message = "the scene has no cloth: give a [[sheet]] or a [[garment]]";
+        return Err(Found::malformed(Place::File, message).into());
+    }
+    let mut bodies = Vec::new();
+    let mut warnings = Vec::new();
+    for body in toml.body {
+        bodies.push(Body::Mesh(convert_body(body, folder, &mut warnings)?));
+    }
+    for (index, sphere) in toml.sphere.iter().enumerate() {
+        bodies.push(Body::Sphere(convert_sphere(index, sphere)?));
+    }
+    let frames = toml.frames.unwrap_or(FRAMES);
+    if frames == 0 {
+        return Err(wrong("frames", "it must be at least 1").into());
+    }
+    let name = toml.name.unwrap_or_else(|| stem.into());
+    Ok(SceneFile { scene: Scene { name, cloths, bodies, settings }, frames, warnings })
+}
+
+fn wrong(key: &str, message: impl Into<String>) -> Found {
+    Found::malformed(Place::Key(key.into()), message)
+}
+
+fn positive(key: &str, value: f64) -> Result<f64, Found> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(value);
+    }
+    Err(wrong(key, format!("it is {value} and must be above 0")))
+}
+
+fn part(key: &str, value: f64) -> Result<f64, Found> {
+    if (0.0..=1.0).contains(&value) {
+        return Ok(value);
+    }
+    Err(wrong(key, format!("it is {value} and must be 0 to 1")))
+}
+
+fn vector(key: &str, value: [f64; 3]) -> Result<DVec3, Found> {
+    let vector = DVec3::from(value);
+    if vector.is_finite() {
+        return Ok(vector);
+    }
+    Err(wrong(key, "it must be three finite numbers"))
+}
+
+fn settings(toml: &SceneToml, folder: &Path) -> Result<Settings, Problem> {
+    let fabric = match &toml.fabric {
+        Some(fabric) => fabric::convert(fabric.clone(), folder)?,
+        None => Fabric::preset("cotton").expect("cotton is a preset"),
+    };
+    let default = Settings::new(fabric);
+    let rule = toml.rule.map_or(default.velocity_modification.rule, |rule| match rule {
+        RuleToml::None => Rule::None,
+        RuleToml::Zero => Rule::Zero,
+        RuleToml::Average => Rule::Average,
+        RuleToml::Directional => Rule::Directional,
+        RuleToml::Position => Rule::Position,
+        RuleToml::Predictive => Rule::Predictive,
+    });
+    let sweeps = toml.sweeps.unwrap_or(default.velocity_modification.sweeps);
+    if sweeps == 0 {
+        return Err(wrong("sweeps", "it must be at least 1; rule = \"none\" turns it off").into());
+    }
+    let friction = match toml.friction {
+        None => default.friction,
+        Some(FrictionToml::Coulomb) => Friction::Coulomb,
+        Some(FrictionToml::Papers(papers)) => Friction::Papers {
+            velocity_kept: part("friction.papers.velocity_kept", papers.velocity_kept)?,
+            force_removed: part("friction.papers.force_removed", papers.force_removed)?,
+        },
+    };
+    let safety = toml.safety.unwrap_or(default.safety);
+    Ok(Settings {
+        velocity_modification: VelocityModification { rule, sweeps },
+        friction,
+        reflection: part("reflection", toml.reflection.unwrap_or(default.reflection))?,
+        gravity: vector("gravity", toml.gravity.unwrap_or(default.gravity.to_array()))?,
+        spacing: positive("spacing", toml.spacing.unwrap_or(default.spacing))?,
+        texel: positive("texel", toml.texel.unwrap_or(default.texel))?,
+        frame_rate: positive("frame_rate", toml.frame_rate.unwrap_or(default.frame_rate))?,
+        safety: part("safety", positive("safety", safety)?)?,
+        fabric: default.fabric,
+    })
+}
+
+fn convert_sheet(index: usize, toml: &SheetToml, n: Option<u32>) -> Result<Sheet, Found> {
+    let key = |name: &str| format!("sheet.{index}.{name}");
+    let count = |name: &str, own: Option<u32>| match own.or(n) {
+        Some(count) if (2..=MOST_COLUMNS).contains(&count) => Ok(count),
+        Some(count) => {
+            let name = if own.is_some() { key(name) } else { "n".into() };
+            Err(wrong(&name, format!("it is {count} and must be 2 to {MOST_COLUMNS}")))
+        }
+        None => Err(wrong(&key(name), "it is missing; give it, or n for all sheets")),
+    };
+    let (columns, rows) = (count("columns", toml.columns)?, count("rows", toml.rows)?);
+    let size = DVec2::new(positive(&key("size"), toml.size[0])?, positive(&key("size"), toml.size[1])?);
+    let direction = |name: &str, value| {
+        vector(&key(name), value)?.try_normalize().ok_or_else(|| wrong(&key(name), "it must be a direction"))
+    };
+    let right = direction("right", toml.right)?;
+    let down = direction("down", toml.down)?;
+    if right.dot(down).abs() > 1e-6 {
+        return Err(wrong(&key("down"), "it must be perpendicular to right"));
+    }
+    let pin = |(number, pin): (usize, &PinToml)| {
+        let [column, row] = match pin {
+            PinToml::At(at) => *at,
+            PinToml::Corner(CornerToml::TopLeft) => [0, 0],
+            PinToml::Corner(CornerToml::TopRight) => [columns - 1, 0],
+            PinToml::Corner(CornerToml::BottomLeft) => [0, rows - 1],
+            PinToml::Corner(CornerToml::BottomRight) => [columns - 1, rows - 1],
+        };
+        if column < columns && row < rows {
+            return Ok(Pin { column, row });
+        }
+        let message = format!("[{column}, {row}] is outside of the sheet of {columns} × {rows}");
+        Err(wrong(&key(&format!("pins.{number}")), message))
+    };
+    Ok(Sheet {
+        name: toml.name.clone().unwrap_or_else(|| "sheet".into()),
+        columns,
+        rows,
+        size,
+        corner: vector(&key("corner"), toml.corner)?,
+        right,
+        down,
+        pins: toml.pins.iter().enumerate().map(pin).collect::<Result<_, _>>()?,
+    })
+}
+
+fn convert_body(toml: BodyToml, folder: &Path, warnings: &mut Vec<String>) -> Result<toile_scene::Mesh, FileError> {
+    let metres_per_unit = match toml.units {
+        None | Some(UnitsToml::M) => 1.0,
+        Some(UnitsToml::Cm) => 0.01,
+        Some(UnitsToml::Mm) => 0.001,
+    };
+    let options = BodyOptions { metres_per_unit, clip: toml.clip, time: toml.time.unwrap_or(0.0) };
+    let body = read_body(&folder.join(&toml.file), &options)?;
+    warnings.extend(body.warnings.iter().map(|warning| format!("{}: {warning}", toml.file)));
+    Ok(body.mesh)
+}
+
+fn convert_sphere(index: usize, toml: &SphereToml) -> Result<Sphere, Found> {
+    let key = |name: &str| format!("sphere.{index}.{name}");
+    let motion = match &toml.swing {
+        None => SphereMotion::Still,
+        Some(swing) => SphereMotion::Swing {
+            amplitude: vector(&key("swing.amplitude"), swing.amplitude)?,
+            period: positive(&key("swing.period"), swing.period)?,
+        },
+    };
+    Ok(Sphere { centre: vector(&key("centre"), toml.centre)?, radius: positive(&key("radius"), toml.radius)?, motion })
+}

@@ -1,0 +1,162 @@
+//! The shape of a scene file.
+
+use serde::Deserialize;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SceneToml {
+    pub name: Option<String>,
+    /// Columns and rows of every sheet that gives none.
+    pub n: Option<u32>,
+    pub frames: Option<u32>,
+    pub frame_rate: Option<f64>,
+    pub gravity: Option<[f64; 3]>,
+    pub spacing: Option<f64>,
+    pub texel: Option<f64>,
+    pub safety: Option<f64>,
+    pub reflection: Option<f64>,
+    pub rule: Option<RuleToml>,
+    pub sweeps: Option<u32>,
+    pub friction: Option<FrictionToml>,
+    pub fabric: Option<FabricToml>,
+    #[serde(default)]
+    pub sheet: Vec<SheetToml>,
+    #[serde(default)]
+    pub garment: Vec<GarmentToml>,
+    #[serde(default)]
+    pub body: Vec<BodyToml>,
+    #[serde(default)]
+    pub sphere: Vec<SphereToml>,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum RuleToml {
+    None,
+    Zero,
+    Average,
+    Directional,
+    Position,
+    Predictive,
+}
+
+/// `"coulomb"`, or `{ papers = { velocity_kept = …, force_removed = … } }`.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum FrictionToml {
+    Coulomb,
+    Papers(PapersToml),
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PapersToml {
+    pub velocity_kept: f64,
+    pub force_removed: f64,
+}
+
+/// The name of a preset or of a fabric file, or a table.
+#[derive(Clone, Deserialize)]
+#[serde(from = "toml::Value")]
+pub(crate) enum FabricToml {
+    Named(String),
+    Table(toml::Value),
+}
+
+impl From<toml::Value> for FabricToml {
+    fn from(value: toml::Value) -> Self {
+        match value {
+            toml::Value::String(name) => Self::Named(name),
+            table => Self::Table(table),
+        }
+    }
+}
+
+/// A fabric, whole or as the difference from another one.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct FabricTable {
+    /// Preset or file that gives what this table does not.
+    pub base: Option<String>,
+    pub name: Option<String>,
+    pub areal_density: Option<f64>,
+    pub structural_stiffness: Option<f64>,
+    pub shear_stiffness: Option<f64>,
+    pub bend_stiffness: Option<f64>,
+    pub damping: Option<f64>,
+    pub thickness: Option<f64>,
+    pub friction: Option<f64>,
+    pub threshold: Option<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SheetToml {
+    pub name: Option<String>,
+    pub columns: Option<u32>,
+    pub rows: Option<u32>,
+    pub size: [f64; 2],
+    pub corner: [f64; 3],
+    pub right: [f64; 3],
+    pub down: [f64; 3],
+    #[serde(default)]
+    pub pins: Vec<PinToml>,
+}
+
+/// A corner by name, or a particle as [column, row].
+#[derive(Clone, Copy, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "a pin is [column, row], \"top_left\", \"top_right\", \"bottom_left\" or \"bottom_right\""
+)]
+pub(crate) enum PinToml {
+    At([u32; 2]),
+    Corner(CornerToml),
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum CornerToml {
+    TopLeft,
+    TopRight,
+    BottomLeft,
+    BottomRight,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct GarmentToml {
+    pub file: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BodyToml {
+    pub file: String,
+    pub units: Option<UnitsToml>,
+    pub clip: Option<String>,
+    pub time: Option<f64>,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum UnitsToml {
+    Mm,
+    Cm,
+    M,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SphereToml {
+    pub centre: [f64; 3],
+    pub radius: f64,
+    pub swing: Option<SwingToml>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SwingToml {
+    pub amplitude: [f64; 3],
+    pub period: f64,
+}

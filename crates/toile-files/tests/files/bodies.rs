@@ -1,0 +1,227 @@
+//! OBJ and PLY bodies: formats, repairs, warnings and places of errors.
+
+use crate::support::{ellipsoid, obj_text, ply_bytes};
+use toile_files::{BodyFile, BodyOptions, Fault, Place, parse_body};
+use toile_scene::Mesh;
+
+fn read(bytes: impl AsRef<[u8]>, name: &str) -> BodyFile {
+    parse_body(bytes.as_ref(), name, &BodyOptions::default()).expect("a readable body")
+}
+
+fn refusal(bytes: impl AsRef<[u8]>, name: &str) -> String {
+    parse_body(bytes.as_ref(), name, &BodyOptions::default()).expect_err("a refusal").to_string()
+}
+
+fn assert_same(mesh: &Mesh, expected: &Mesh) {
+    assert_eq!(mesh.positions, expected.positions);
+    assert_eq!(mesh.triangles, expected.triangles);
+    for (normal, expected) in mesh.normals.iter().zip(&expected.normals) {
+        assert!(normal.distance(*expected) < 1e-6);
+    }
+}
+
+#[test]
+fn every_format_gives_the_same_mesh() {
+    let mesh = ellipsoid();
+    let obj = obj_text(&mesh);
+    let ascii: String = obj
+        .lines()
+        .map(|line| match line.split_once(' ').expect("a keyword") {
+            ("v", rest) => format!("{rest}\n"),
+            (_, rest) => {
+                let zero_based = rest.split(' ').map(|i| (i.parse::<u32>().expect("an index") - 1).to_string());
+                format!("3 {}\n", zero_based.collect::<Vec<_>>().join(" "))
+            }
+        })
+        .collect();
+    let header = format!(
+        "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n\
+         element face {}\nproperty list uchar uint vertex_index\nend_header\n",
+        mesh.positions.len(),
+        mesh.triangles.len()
+    );
+    for body in [
+        read(&obj, "a.obj"),
+        read(obj.replace('\n', "\r\n"), "a.OBJ"),
+        read(header + &ascii, "a.ply"),
+        read(ply_bytes(&mesh, false), "a.ply"),
+        read(ply_bytes(&mesh, true), "a.ply"),
+    ] {
+        assert_same(&body.mesh, &mesh);
+        assert_eq!(body.warnings, [] as [&str; 0]);
+    }
+}
+
+#[test]
+fn polygons_become_fans_and_indices_may_count_backwards() {
+    let cube = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n\
+                f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf -6 -5 -1 -2 # backwards\nf 1 5 8 4\nf 2/1 3/2 7/3 6/4\n";
+    let body = read(cube, "cube.obj");
+    assert_eq!((body.mesh.positions.len(), body.mesh.triangles.len()), (8, 12));
+    assert_eq!(body.warnings, [] as [&str; 0]);
+    assert!((body.mesh.signed_volume() - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn seams_are_welded_and_inward_faces_turned() {
+    let mesh = ellipsoid();
+    let mut split = Mesh::default();
+    for triangle in &mesh.triangles {
+        let first = split.positions.len() as u32;
+        split.positions.extend(triangle.map(|i| mesh.positions[i as usize]));
+        split.triangles.push([first, first + 2, first + 1]);
+    }
+    let body = read(obj_text(&split), "split.obj");
+    assert_eq!(body.mesh.positions.len(), mesh.positions.len());
+    assert!(body.mesh.signed_volume() > 0.0);
+    assert_eq!(body.warnings, ["triangles that faced inward turned over: 216"]);
+    for (position, normal) in body.mesh.positions.iter().zip(&body.mesh.normals) {
+        let outward = *position - glam::vec3(0.0, 0.8, 0.0);
+        assert!(normal.dot(outward) > 0.0);
+    }
+}
+
+#[test]
+fn a_scan_with_every_defect_works_and_says_what_it_has() {
+    let mut mesh = ellipsoid();
+    let last = mesh.positions.len() as u32;
+    mesh.triangles.remove(40);
+    let [a, b, c] = mesh.triangles[10];
+    mesh.triangles.push([a, b, c]);
+    mesh.triangles.push([a, a, b]);
+    // A fin on the edge a-b, and a stray point.
+    mesh.positions.push(glam::vec3(0.0, 1.7, 0.3));
+    mesh.positions.push(glam::vec3(5.0, 50.0, 5.0));
+    mesh.triangles.push([a, b, last]);
+    let body = read(obj_text(&mesh), "scan.obj");
+    assert_eq!(body.mesh.triangles.len(), 216);
+    insta::assert_snapshot!(body.warnings.join("\n"), @r#"
+    degenerate triangles removed: 1
+    duplicated triangles removed: 1
+    isolated vertices removed: 1
+    boundary edges (the body has holes): 5
+    non-manifold edges (shared by more than two triangles): 1
+    "#);
+}
+
+#[test]
+fn noise_alone_is_no_fault() {
+    let mut mesh = ellipsoid();
+    for (i, position) in mesh.positions.iter_mut().enumerate() {
+        *position += 0.003 * glam::vec3((i as f32).sin(), (i as f32 * 1.7).cos(), (i as f32 * 2.3).sin());
+    }
+    let body = read(obj_text(&mesh), "noise.obj");
+    assert_eq!(body.warnings, [] as [&str; 0]);
+}
+
+#[test]
+fn given_normals_are_kept_where_they_are_usable() {
+    let mesh = ellipsoid();
+    let tilted = glam::vec3(0.1, 1.0, 0.0).normalize();
+    let mut text = obj_text(&mesh).replace("f 1 ", "f 1//1 ").replace("f 110 ", "f 110//2 ");
+    text.insert_str(0, "vn 0.2 2 0\nvn nan 0 0\n");
+    let body = read(&text, "normals.obj");
+    assert!(body.mesh.normals[0].distance(tilted) < 1e-6);
+    assert!(body.mesh.normals[1].distance(mesh.normals[1]) < 1e-6);
+    assert!(body.mesh.normals.iter().all(|normal| (normal.length() - 1.0).abs() < 1e-6));
+    assert_eq!(body.warnings, ["normals replaced (missing, not finite or against the winding): 109"]);
+}
+
+#[test]
+fn obj_errors_name_the_line() {
+    let mesh = obj_text(&ellipsoid());
+    let cases = [
+        "v 0 0".to_string(),
+        "v 0 zero 0".into(),
+        "v 0 1e60 0".into(),
+        format!("{mesh}f 1 2 999\nf 1 2 1000\n"),
+        format!("{mesh}f 1 2 0\n"),
+        format!("{mesh}f 1 -900 2\n"),
+        format!("{mesh}f 1 2\n"),
+        format!("{mesh}f 1 2 x\n"),
+        format!("{mesh}f 1//7 2 3\n"),
+    ];
+    let messages: Vec<String> = cases.iter().map(|text| refusal(text, "a.obj")).collect();
+    insta::assert_snapshot!(messages.join("\n"), @r#"
+    a.obj, line 1: a vertex needs three numbers
+    a.obj, line 1: "zero" is not a number
+    a.obj, line 1: the position (0.0, 1e60, 0.0) is not a finite number
+    a.obj, line 328: vertex 1000 does not exist: there are 110
+    a.obj, line 327: vertex 0 does not exist: there are 110
+    a.obj, line 327: vertex -900 does not exist: there are 110
+    a.obj, line 327: a face has 2 corners, it needs 3
+    a.obj, line 327: "x" is not an index
+    a.obj, line 327: normal 7 does not exist: there are 0
+    "#);
+}
+
+#[test]
+fn ply_errors_name_line_byte_or_row() {
+    let head = |format: &str, rest: &str| format!("ply\nformat {format} 1.0\n{rest}");
+    let vertex = "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
+    let face = "element face 1\nproperty list char int vertex_indices\nend_header\n";
+    let cases = [
+        "plz\n".to_string(),
+        "ply\nelement vertex many\n".into(),
+        "ply\nformat ascii 1.0\nproperty float x\n".into(),
+        head("middle_endian", ""),
+        head("ascii", "element vertex 1\nproperty quad x\n"),
+        head("ascii", vertex),
+        head("ascii", &format!("element vertex 1\nproperty float x\n{face}1 2 3")),
+        head("ascii", &format!("{vertex}{face}0 0 nan\n3 0 0 0\n")),
+        head("ascii", &format!("{vertex}{face}0 0 up\n3 0 0 0\n")),
+        head("ascii", &format!("{vertex}{face}0 0 0\n3 0 0 7\n")),
+        head("ascii", &format!("{vertex}{face}0 0 0\n3 0 0 -1\n")),
+        head("ascii", &format!("{vertex}{face}0 0 0\n99 0 0 0\n")),
+        head("ascii", &format!("{vertex}{face}0 0 0\n-2 0 0 0\n")),
+        head("ascii", &format!("{vertex}{face}0 0 0\n2 0 0\n")),
+        head("binary_little_endian", &format!("{vertex}{face}\0\0\0\0\0\0\0\0\0\0\0\0\u{7}\0")),
+    ];
+    let messages: Vec<String> = cases.iter().map(|text| refusal(text, "a.ply")).collect();
+    insta::assert_snapshot!(messages.join("\n"), @r#"
+    a.ply, line 1: a PLY file starts with the line "ply"
+    a.ply, line 2: "many" is not a number of rows
+    a.ply, line 3: a property before any element
+    a.ply, line 2: the format "middle_endian" is not known
+    a.ply, line 4: the type "quad" is not known
+    a.ply, byte 89: the header has no line "end_header"
+    a.ply: the element vertex has no number "y"
+    a.ply, vertex 0: the position (0.0, 0.0, NaN) is not a finite number
+    a.ply, line 10: "up" is not a number
+    a.ply, face 0: vertex 7 does not exist: there are 1
+    a.ply, face 0: -1 is not a vertex index
+    a.ply, line 11: a list of 99 numbers needs 197 bytes, but the file has only 7 left: it is truncated or damaged
+    a.ply, line 11: -2 is not a length of the list "vertex_indices"
+    a.ply, face 0: it has 2 corners, it needs 3
+    a.ply, byte 181: a list of 7 numbers needs 27 bytes, but the file has only 1 left: it is truncated or damaged
+    "#);
+}
+
+#[test]
+fn the_units_message_names_the_flag_that_helps() {
+    let scaled = |factor: f32| {
+        let mut mesh = ellipsoid();
+        mesh.positions.iter_mut().for_each(|position| *position *= factor);
+        obj_text(&mesh)
+    };
+    let cases = [scaled(1000.0), scaled(100.0), scaled(0.01), scaled(1e6)];
+    let messages: Vec<String> = cases.iter().map(|text| refusal(text, "a.obj")).collect();
+    insta::assert_snapshot!(messages.join("\n"), @r#"
+    a.obj: the body is 1600 m tall, and bodies are 0.2 m to 4 m tall: give --body-units mm if it should be 1.60 m
+    a.obj: the body is 160 m tall, and bodies are 0.2 m to 4 m tall: give --body-units cm if it should be 1.60 m
+    a.obj: the body is 0.0160 m tall, and bodies are 0.2 m to 4 m tall: none of --body-units mm, cm or m makes it a body's size
+    a.obj: the body is 1.60e6 m tall, and bodies are 0.2 m to 4 m tall: none of --body-units mm, cm or m makes it a body's size
+    "#);
+    let options = BodyOptions { metres_per_unit: 0.001, ..BodyOptions::default() };
+    let error = parse_body(scaled(1.0).as_bytes(), "a.obj", &options).expect_err("1.6 mm");
+    assert!(error.to_string().contains("--body-units m "), "{error}");
+}
+
+#[test]
+fn faults_are_typed() {
+    let error = parse_body(b"v 0 0 0\n", "a.obj", &BodyOptions::default()).expect_err("no triangle");
+    assert!(matches!(*error.fault, Fault::Empty(1)));
+    assert_eq!(error.place, Place::File);
+    let error = parse_body(b"", "a.stl", &BodyOptions::default()).expect_err("no such format");
+    assert!(matches!(*error.fault, Fault::UnknownFormat(_)));
+}

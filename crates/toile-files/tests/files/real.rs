@@ -1,0 +1,86 @@
+//! Real patterns and bodies, on machines that have them beside the repository.
+
+use crate::support::{fixture, real_data};
+use std::fs;
+use toile_files::{BodyOptions, read_body, read_garment};
+use toile_scene::Curve;
+
+#[test]
+fn the_ten_patterns_parse() {
+    let Some(data) = real_data() else { return };
+    let mut lines = Vec::new();
+    for entry in fs::read_dir(data.join("patterns/garmentcode")).expect("the patterns") {
+        let path = entry.expect("an entry").path();
+        let garment = read_garment(&path).expect("a readable pattern");
+        let edges: usize = garment.panels.iter().map(|panel| panel.edges.len()).sum();
+        let edge = || garment.panels.iter().flat_map(|panel| &panel.edges);
+        let curved = edge().filter(|edge| edge.curve != Curve::Straight).count();
+        let labelled = edge().filter(|edge| edge.label.is_some()).count();
+        lines.push(format!(
+            "{}: {} panels, {edges} edges, {curved} curved, {labelled} labelled, {} seams",
+            garment.name,
+            garment.panels.len(),
+            garment.seams.len()
+        ));
+    }
+    lines.sort();
+    insta::assert_snapshot!(lines.join("\n"), @r#"
+    dress_sleeveless: 6 panels, 66 edges, 26 curved, 18 labelled, 28 seams
+    dress_sleeves: 10 panels, 82 edges, 30 curved, 18 labelled, 36 seams
+    shirt_long_sleeves: 8 panels, 44 edges, 16 curved, 6 labelled, 16 seams
+    shirt_sleeveless: 4 panels, 24 edges, 8 curved, 8 labelled, 6 seams
+    shirt_sleeves: 8 panels, 44 edges, 16 curved, 6 labelled, 16 seams
+    shorts: 6 panels, 62 edges, 12 curved, 2 labelled, 28 seams
+    skirt_2panel: 4 panels, 16 edges, 0 curved, 2 labelled, 6 seams
+    skirt_circle: 4 panels, 16 edges, 4 curved, 2 labelled, 6 seams
+    skirt_pencil: 4 panels, 44 edges, 14 curved, 2 labelled, 20 seams
+    trousers: 6 panels, 62 edges, 12 curved, 2 labelled, 28 seams
+    "#);
+}
+
+#[test]
+fn stitched_ends_lie_near_each_other() {
+    let Some(data) = real_data() else { return };
+    let garment = read_garment(&data.join("patterns/garmentcode/skirt_2panel_specification.json"));
+    let garment = garment.expect("a readable pattern");
+    for seam in &garment.seams {
+        let [a, b] = seam.sides.map(|side| {
+            let panel = &garment.panels[side.panel];
+            let middle = panel.polyline(side.edge, 1e-3).iter().sum::<glam::DVec2>() / 2.0;
+            panel.placement.world(middle)
+        });
+        // Front and back hang up to half a metre apart, and left never meets right.
+        assert!(a.distance(b) < 0.6 && (a.x - b.x).abs() < 0.2, "{a} {b}");
+    }
+}
+
+#[test]
+fn the_three_bodies_have_their_documented_counts() {
+    let Some(data) = real_data() else { return };
+    for (name, vertices, triangles) in [
+        ("bodies/mh_female_apose45.obj", 13_380, 26_756),
+        ("bodies/mh_female_apose45_loop1.ply", 53_514, 107_024),
+        ("walks/mh_female_walk.glb", 13_380, 26_756),
+    ] {
+        let body = read_body(&data.join(name), &BodyOptions::default()).expect("a readable body");
+        assert_eq!((body.mesh.positions.len(), body.mesh.triangles.len()), (vertices, triangles));
+        assert_eq!(body.warnings, [] as [&str; 0], "{name}");
+        let [low, high] = body.mesh.bounds().expect("vertices");
+        assert!((high.y - low.y - 1.593).abs() < 2e-3, "{name}: {}", high.y - low.y);
+    }
+}
+
+#[test]
+fn the_dressing_pose_of_the_walk_is_the_standing_body() {
+    let Some(data) = real_data() else { return };
+    let standing = read_body(&data.join("bodies/mh_female_apose45.obj"), &BodyOptions::default());
+    let standing = standing.expect("a readable body").mesh;
+    let options = BodyOptions { clip: Some("apose_to_walk".into()), ..BodyOptions::default() };
+    let walker = read_body(&fixture("bodies/walking_woman.glb"), &options).expect("the fixture").mesh;
+    let worst = standing
+        .positions
+        .iter()
+        .map(|p| walker.positions.iter().map(|q| p.distance(*q)).fold(f32::INFINITY, f32::min))
+        .fold(0.0, f32::max);
+    assert!(worst < 1e-4, "{worst}");
+}

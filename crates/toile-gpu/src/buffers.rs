@@ -1,0 +1,229 @@
+//! The buffers of a plan: those that its kernels name, and no other.
+
+use crate::GpuError;
+use encase::{ShaderType, StorageBuffer, UniformBuffer, internal::WriteInto};
+use glam::{Vec3, Vec4};
+use std::collections::BTreeMap;
+use toile_kernels::{Binding, Resource, WORKGROUP_SIZE, structs};
+use toile_model::{Model, StepSettings};
+use toile_scene::Friction;
+use wgpu::util::DeviceExt;
+
+/// Bytes from one entry of a moving uniform to the next: the alignment that every WebGPU device accepts.
+pub(crate) const MOVING_UNIFORM_STRIDE: u64 = 256;
+
+/// Buffers by the global name that the kernels give them.
+#[derive(Debug)]
+pub(crate) struct Buffers {
+    by_name: BTreeMap<String, wgpu::Buffer>,
+}
+
+impl Buffers {
+    /// Creates and fills the buffers that these bindings name.
+    pub(crate) fn new<'a>(
+        device: &wgpu::Device,
+        model: &Model,
+        settings: &StepSettings,
+        bindings: impl Iterator<Item = &'a Binding>,
+    ) -> Result<Self, GpuError> {
+        let mut by_name = BTreeMap::new();
+        let most = device.limits().max_storage_buffer_binding_size;
+        for binding in bindings {
+            let name = binding.name.as_str();
+            let is_buffer = matches!(binding.resource, Resource::Uniform { .. } | Resource::Storage { .. });
+            // The frame of the maps lives with the maps.
+            if !is_buffer || name == "map_frame" || by_name.contains_key(name) {
+                continue;
+            }
+            let contents = contents(name, model, settings);
+            let size = contents.size().max(16);
+            if size > most {
+                return Err(GpuError::BufferTooLarge { name: name.to_owned(), needed: size, available: most });
+            }
+            by_name.insert(name.to_owned(), create(device, name, binding.resource, contents));
+        }
+        Ok(Self { by_name })
+    }
+
+    /// The buffer of a name.
+    ///
+    /// # Panics
+    /// When no kernel of the plan names it.
+    pub(crate) fn get(&self, name: &str) -> &wgpu::Buffer {
+        self.find(name).unwrap_or_else(|| panic!("no kernel of this plan has a buffer named {name}"))
+    }
+
+    /// The buffer of a name, if a kernel of the plan names it.
+    pub(crate) fn find(&self, name: &str) -> Option<&wgpu::Buffer> {
+        self.by_name.get(name)
+    }
+
+    /// Bytes of all buffers.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.by_name.values().map(wgpu::Buffer::size).sum()
+    }
+
+    /// Name and bytes of each buffer.
+    pub(crate) fn sizes(&self) -> impl Iterator<Item = (&str, u64)> {
+        self.by_name.iter().map(|(name, buffer)| (name.as_str(), buffer.size()))
+    }
+}
+
+/// What a buffer holds at the start.
+enum Contents {
+    Bytes(Vec<u8>),
+    Zeros(u64),
+}
+
+impl Contents {
+    fn size(&self) -> u64 {
+        match self {
+            Contents::Bytes(bytes) => bytes.len() as u64,
+            Contents::Zeros(size) => *size,
+        }
+    }
+}
+
+fn create(device: &wgpu::Device, name: &str, resource: Resource, contents: Contents) -> wgpu::Buffer {
+    let usage = match resource {
+        Resource::Uniform { .. } => wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        // Positions and normals are drawn by the host and by the maps of a later garment.
+        _ => {
+            wgpu::BufferUsages::STORAGE
+                | wgpu::BufferUsages::VERTEX
+                | wgpu::BufferUsages::COPY_SRC
+                | wgpu::BufferUsages::COPY_DST
+        }
+    };
+    match contents {
+        Contents::Bytes(bytes) if !bytes.is_empty() => {
+            device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(name), contents: &bytes, usage })
+        }
+        other => device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(name),
+            size: other.size().max(16),
+            usage,
+            mapped_at_creation: false,
+        }),
+    }
+}
+
+/// What the buffer of a name holds at the start.
+fn contents(name: &str, model: &Model, settings: &StepSettings) -> Contents {
+    let particles = u64::from(model.particle_count());
+    let quads = u64::from(model.quad_count());
+    match name {
+        "step" => uniform(&step_params(model, settings)),
+        "span" => Contents::Bytes(spans(model)),
+        "ball" => Contents::Zeros(u64::from(settings.steps_per_frame) * MOVING_UNIFORM_STRIDE),
+        "positions" => {
+            Contents::Bytes(vec4s(model.positions.iter().zip(&model.inverse_masses).map(|(p, w)| p.extend(*w))))
+        }
+        "velocities" => Contents::Bytes(vec4s(model.masses.iter().map(|m| Vec3::ZERO.extend(*m)))),
+        "forces" | "normals" | "position_copies" | "velocity_copies" => Contents::Zeros(16 * particles),
+        "link_offsets" => words(&model.links.offsets),
+        "link_others" => words(&model.links.values.iter().map(|l| l.other).collect::<Vec<_>>()),
+        "link_springs" => {
+            let spring = |l: &toile_model::Link| structs::LinkSpring { rest_length: l.rest_length, stiffness: l.stiffness };
+            array(model.links.values.iter().map(spring).collect())
+        }
+        "limits" => {
+            let limit = |l: &toile_model::Limit| structs::Limit {
+                first: l.ends[0],
+                second: l.ends[1],
+                rest_length: l.rest_length,
+                max_length: l.max_length,
+            };
+            array(model.limits.iter().map(limit).collect())
+        }
+        "seam_pairs" => {
+            let pair = |s: &toile_model::SeamPair| structs::SeamPair {
+                first: s.ends[0],
+                second: s.ends[1],
+                closing_speed: s.closing_speed,
+            };
+            array(model.seam_pairs.iter().map(pair).collect())
+        }
+        "holds" => {
+            let hold = |h: &toile_model::Hold| structs::Hold { particle: h.particle, height: h.height };
+            array(model.holds.iter().map(hold).collect())
+        }
+        "quads" => Contents::Bytes(bytemuck::cast_slice(&model.quads).to_vec()),
+        "particle_quad_offsets" => words(&model.particle_quads.offsets),
+        "particle_quads" => words(&model.particle_quads.values),
+        "midpoints" => zeroed::<structs::Midpoint>(quads),
+        "probes" => zeroed::<structs::Probe>(particles + quads),
+        "responses" => zeroed::<structs::Response>(quads),
+        "contacts" => zeroed::<structs::Contact>(particles),
+        "status" => zeroed::<structs::Status>(1),
+        "energy_partials" => Contents::Zeros(4 * particles.div_ceil(u64::from(WORKGROUP_SIZE))),
+        other => panic!("the kernels name a buffer {other} that has no contents here"),
+    }
+}
+
+fn step_params(model: &Model, settings: &StepSettings) -> structs::StepParams {
+    let (friction_law, velocity_kept, force_removed) = match settings.law {
+        Friction::Coulomb => (0, 0.0, 0.0),
+        Friction::Papers { velocity_kept, force_removed } => (1, velocity_kept as f32, force_removed as f32),
+    };
+    structs::StepParams {
+        gravity: settings.gravity,
+        dt: settings.dt,
+        damping: settings.damping,
+        push_speed: settings.push_speed,
+        contact_margin: settings.contact_margin,
+        reflection: settings.reflection,
+        friction_law,
+        friction: settings.friction,
+        velocity_kept,
+        force_removed,
+        hold_stiffness: settings.hold_stiffness,
+        hold_acceleration: settings.hold_acceleration,
+        recovery_speed: settings.recovery_speed,
+        particle_count: model.particle_count(),
+        quad_count: model.quad_count(),
+    }
+}
+
+/// The spans of the limit colours, then those of the seam colours.
+fn spans(model: &Model) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    for colour in model.limit_colours.iter().chain(&model.seam_colours) {
+        let span = structs::Span { first: colour.start, count: colour.end - colour.start };
+        bytes.extend(uniform_bytes(&span));
+        bytes.resize(bytes.len().next_multiple_of(MOVING_UNIFORM_STRIDE as usize), 0);
+    }
+    bytes
+}
+
+fn vec4s(values: impl Iterator<Item = Vec4>) -> Vec<u8> {
+    bytemuck::cast_slice(&values.collect::<Vec<_>>()).to_vec()
+}
+
+fn words(values: &[u32]) -> Contents {
+    Contents::Bytes(bytemuck::cast_slice(values).to_vec())
+}
+
+fn uniform<T: ShaderType + WriteInto>(value: &T) -> Contents {
+    Contents::Bytes(uniform_bytes(value))
+}
+
+/// The bytes of a struct as a uniform buffer holds them.
+pub(crate) fn uniform_bytes<T: ShaderType + WriteInto>(value: &T) -> Vec<u8> {
+    let mut buffer = UniformBuffer::new(Vec::new());
+    buffer.write(value).expect("a vector grows to what is written");
+    buffer.into_inner()
+}
+
+fn array<T>(values: Vec<T>) -> Contents
+where
+    Vec<T>: ShaderType + WriteInto,
+{
+    let mut buffer = StorageBuffer::new(Vec::new());
+    buffer.write(&values).expect("a vector grows to what is written");
+    Contents::Bytes(buffer.into_inner())
+}
+
+fn zeroed<T: ShaderType>(count: u64) -> Contents {
+    Contents::Zeros(T::min_size().get() * count)
+}

@@ -1,0 +1,21 @@
+//! Plan, buffers, maps, pipelines, solver, status, timing and read-back on a wgpu device.
+//!
+//! Nothing here creates a device, submits, or waits, except the functions of [`readback`] and [`Timer::read`], which are for
+//! tests, benches and programs that write files.
+
+mod buffers;
+mod error;
+mod maps;
+mod plan;
+mod program;
+pub mod readback;
+mod solver;
+mod status;
+mod timing;
+
+pub use error::GpuError;
+pub use maps::{BodyMaps, Surface};
+pub use plan::{Pass, Plan};
+pub use program::Program;
+pub use solver::{Colliders, Solver};
+pub use timing::{PassTime, Timer};

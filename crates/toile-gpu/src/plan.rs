@@ -1,0 +1,120 @@
+//! The passes that a model gets: the rows of the kernel table whose needs hold.
+
+use std::fmt;
+use std::ops::Range;
+use toile_kernels::{Domain, Kernel, Need, Row, Stage, TABLE, WORKGROUP_SIZE};
+use toile_model::{Model, Needs};
+use toile_scene::Rule;
+
+/// Workgroups along one dimension that every device can dispatch.
+const WORKGROUPS_MAX: u32 = 65_535;
+
+/// The passes of one step and of the end of one frame, in order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Passes of one step.
+    pub step: Vec<Pass>,
+    /// Passes at the end of a frame.
+    pub frame: Vec<Pass>,
+}
+
+/// One dispatch of a kernel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pass {
+    /// The kernel.
+    pub kernel: Kernel,
+    /// The items it works on: one colour of an array, or all of them.
+    pub items: Range<u32>,
+    /// Which colour, for kernels that work by colour.
+    pub colour: Option<u32>,
+}
+
+impl Plan {
+    /// The plan of a model.
+    pub fn new(model: &Model, needs: &Needs, sweeps: u32) -> Self {
+        let rows: Vec<&Row> = TABLE.iter().filter(|row| holds(row.need, needs)).collect();
+        let mut step = Vec::new();
+        for group in rows.chunk_by(|a, b| a.stage == b.stage) {
+            let repeats = match group[0].stage {
+                Stage::Step => 1,
+                Stage::Sweep => sweeps.max(1),
+                Stage::Frame | Stage::Handover | Stage::Measure => 0,
+            };
+            for _ in 0..repeats {
+                step.extend(group.iter().flat_map(|row| passes(row, model)));
+            }
+        }
+        let frame = rows.iter().filter(|row| row.stage == Stage::Frame).flat_map(|row| passes(row, model)).collect();
+        Self { step, frame }
+    }
+
+    /// Every kernel of the plan, each once, in order of first use.
+    pub fn kernels(&self) -> Vec<Kernel> {
+        let mut kernels = Vec::new();
+        for pass in self.step.iter().chain(&self.frame) {
+            if !kernels.contains(&pass.kernel) {
+                kernels.push(pass.kernel);
+            }
+        }
+        kernels
+    }
+}
+
+impl Pass {
+    /// Workgroups to dispatch along x and y.
+    pub fn workgroups(&self) -> [u32; 2] {
+        let groups = (self.items.end - self.items.start).div_ceil(WORKGROUP_SIZE);
+        [groups.min(WORKGROUPS_MAX), groups.div_ceil(WORKGROUPS_MAX)]
+    }
+}
+
+/// Whether a row's need holds.
+fn holds(need: Need, needs: &Needs) -> bool {
+    match need {
+        Need::Nothing => true,
+        Need::Body => needs.body(),
+        Need::Maps => needs.maps,
+        Need::Sphere => needs.sphere,
+        Need::Holds => needs.holds,
+        Need::Seams => needs.seams,
+        Need::Limits => needs.limits,
+        Need::RuleZero => needs.rule == Rule::Zero,
+        Need::RuleAverage => needs.rule == Rule::Average,
+        Need::RuleDirectional => needs.rule == Rule::Directional,
+        Need::RulePredictive => needs.rule == Rule::Predictive,
+        Need::RulePosition => needs.rule == Rule::Position,
+    }
+}
+
+fn passes(row: &Row, model: &Model) -> Vec<Pass> {
+    let all = |count: u32| vec![Pass { kernel: row.kernel, items: 0..count, colour: None }];
+    let coloured = |colours: &[Range<u32>]| {
+        let colours = colours.iter().zip(0..);
+        colours.map(|(items, colour)| Pass { kernel: row.kernel, items: items.clone(), colour: Some(colour) }).collect()
+    };
+    match row.domain {
+        Domain::Particle => all(model.particle_count()),
+        Domain::Quad => all(model.quad_count()),
+        Domain::Point => all(model.particle_count() + model.quad_count()),
+        Domain::Hold => all(model.holds.len() as u32),
+        Domain::Limit => all(model.limits.len() as u32),
+        Domain::LimitColour => coloured(&model.limit_colours),
+        Domain::SeamPair => all(model.seam_pair_count()),
+        Domain::SeamColour => coloured(&model.seam_colours),
+        Domain::Workgroup => all(WORKGROUP_SIZE),
+    }
+}
+
+impl fmt::Display for Plan {
+    /// One line for each run of dispatches of the same kernel.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (title, passes) in [("step", &self.step), ("frame", &self.frame)] {
+            writeln!(f, "{title}: {} dispatches", passes.len())?;
+            for run in passes.chunk_by(|a, b| a.kernel == b.kernel) {
+                let items: u32 = run.iter().map(|pass| pass.items.end - pass.items.start).sum();
+                writeln!(f, "  {:<18} {:>3} × {items} items", run[0].kernel.name(), run.len())?;
+            }
+        }
+        Ok(())
+    }
+}

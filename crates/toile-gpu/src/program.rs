@@ -1,0 +1,100 @@
+//! A kernel on a device: its pipeline, and resources bound to it by name.
+
+use toile_kernels::{Binding, Interface, Kernel, Resource};
+
+/// A kernel on a device. Everything it binds comes from the WGSL, by global name.
+#[derive(Debug)]
+pub struct Program {
+    interface: Interface,
+    layout: wgpu::BindGroupLayout,
+    pipeline: wgpu::ComputePipeline,
+}
+
+/// Uniforms whose place in their buffer changes from dispatch to dispatch.
+const MOVING_UNIFORMS: [&str; 2] = ["span", "ball"];
+
+impl Program {
+    /// Compiles a kernel.
+    pub fn new(device: &wgpu::Device, kernel: Kernel) -> Self {
+        let interface = Interface::of(kernel);
+        let label = Some(kernel.name());
+        let entries: Vec<_> = interface.bindings.iter().map(layout_entry).collect();
+        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries: &entries });
+        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label,
+            bind_group_layouts: &[Some(&layout)],
+            immediate_size: 0,
+        });
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label,
+            source: wgpu::ShaderSource::Wgsl(kernel.source().into()),
+        });
+        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label,
+            layout: Some(&pipeline_layout),
+            module: &module,
+            entry_point: Some(kernel.name()),
+            compilation_options: Default::default(),
+            cache: None,
+        });
+        Self { interface, layout, pipeline }
+    }
+
+    /// What the kernel binds.
+    pub fn interface(&self) -> &Interface {
+        &self.interface
+    }
+
+    /// The compiled pipeline.
+    pub fn pipeline(&self) -> &wgpu::ComputePipeline {
+        &self.pipeline
+    }
+
+    /// Whether the kernel takes a dynamic offset: it has a uniform that changes from dispatch to dispatch.
+    pub fn has_moving_uniform(&self) -> bool {
+        self.interface.bindings.iter().any(|b| MOVING_UNIFORMS.contains(&b.name.as_str()))
+    }
+
+    /// Binds resources by name.
+    pub fn bind<'a>(
+        &self,
+        device: &wgpu::Device,
+        mut resource: impl FnMut(&Binding) -> wgpu::BindingResource<'a>,
+    ) -> wgpu::BindGroup {
+        let entries: Vec<_> = self
+            .interface
+            .bindings
+            .iter()
+            .map(|binding| wgpu::BindGroupEntry { binding: binding.number, resource: resource(binding) })
+            .collect();
+        device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(&self.interface.entry),
+            layout: &self.layout,
+            entries: &entries,
+        })
+    }
+}
+
+fn layout_entry(binding: &Binding) -> wgpu::BindGroupLayoutEntry {
+    let buffer = |ty| wgpu::BindingType::Buffer {
+        ty,
+        has_dynamic_offset: MOVING_UNIFORMS.contains(&binding.name.as_str()),
+        min_binding_size: None,
+    };
+    let texture = |sample_type| wgpu::BindingType::Texture {
+        sample_type,
+        view_dimension: wgpu::TextureViewDimension::D2Array,
+        multisampled: false,
+    };
+    wgpu::BindGroupLayoutEntry {
+        binding: binding.number,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: match binding.resource {
+            Resource::Uniform { .. } => buffer(wgpu::BufferBindingType::Uniform),
+            Resource::Storage { written, .. } => buffer(wgpu::BufferBindingType::Storage { read_only: !written }),
+            Resource::DepthTexture => texture(wgpu::TextureSampleType::Depth),
+            Resource::FloatTexture => texture(wgpu::TextureSampleType::Float { filterable: false }),
+        },
+        count: None,
+    }
+}

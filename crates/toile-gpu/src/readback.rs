@@ -1,0 +1,101 @@
+//! Blocking reads of buffers and maps, for tests and for programs that write files. Never in a frame loop.
+
+use crate::{BodyMaps, GpuError};
+use glam::{Vec3, Vec4};
+
+/// Copies a buffer to the CPU and waits for it. The buffer needs usage `COPY_SRC`.
+///
+/// # Errors
+/// [`GpuError::Device`] when the device is lost or does not answer.
+pub fn read_buffer(device: &wgpu::Device, queue: &wgpu::Queue, buffer: &wgpu::Buffer) -> Result<Vec<u8>, GpuError> {
+    read(device, queue, buffer.size(), |encoder, staging| {
+        encoder.copy_buffer_to_buffer(buffer, 0, staging, 0, buffer.size());
+    })
+}
+
+/// The vec4 values of a buffer, for example positions with inverse masses.
+///
+/// # Errors
+/// As [`read_buffer`].
+pub fn read_vec4s(device: &wgpu::Device, queue: &wgpu::Queue, buffer: &wgpu::Buffer) -> Result<Vec<Vec4>, GpuError> {
+    Ok(bytemuck::pod_collect_to_vec(&read_buffer(device, queue, buffer)?))
+}
+
+/// Both layers of the depth map, front then back, each rows × columns from the top left.
+///
+/// # Errors
+/// As [`read_buffer`].
+pub fn read_depth(device: &wgpu::Device, queue: &wgpu::Queue, maps: &BodyMaps) -> Result<[Vec<f32>; 2], GpuError> {
+    let texels: Vec<f32> = read_texture(device, queue, maps.depth(), 4, wgpu::TextureAspect::DepthOnly)?;
+    Ok(split(texels))
+}
+
+/// Both layers of the normal map, front then back, each rows × columns from the top left.
+///
+/// # Errors
+/// As [`read_buffer`].
+pub fn read_normals(device: &wgpu::Device, queue: &wgpu::Queue, maps: &BodyMaps) -> Result<[Vec<Vec3>; 2], GpuError> {
+    let texels: Vec<Vec4> = read_texture(device, queue, maps.normals(), 16, wgpu::TextureAspect::All)?;
+    Ok(split(texels.into_iter().map(Vec4::truncate).collect()))
+}
+
+fn split<T>(mut layers: Vec<T>) -> [Vec<T>; 2] {
+    let back = layers.split_off(layers.len() / 2);
+    [layers, back]
+}
+
+fn read_texture<T: bytemuck::Pod>(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    texture: &wgpu::Texture,
+    texel_bytes: u32,
+    aspect: wgpu::TextureAspect,
+) -> Result<Vec<T>, GpuError> {
+    let size = texture.size();
+    let row_bytes = size.width * texel_bytes;
+    let padded_row_bytes = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let rows = u64::from(size.height) * u64::from(size.depth_or_array_layers);
+    let bytes = read(device, queue, rows * u64::from(padded_row_bytes), |encoder, staging| {
+        encoder.copy_texture_to_buffer(
+            wgpu::TexelCopyTextureInfo { texture, mip_level: 0, origin: wgpu::Origin3d::ZERO, aspect },
+            wgpu::TexelCopyBufferInfo {
+                buffer: staging,
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(padded_row_bytes),
+                    rows_per_image: Some(size.height),
+                },
+            },
+            size,
+        );
+    })?;
+    let rows = bytes.chunks_exact(padded_row_bytes as usize).flat_map(|row| &row[..row_bytes as usize]);
+    Ok(bytemuck::pod_collect_to_vec(&rows.copied().collect::<Vec<u8>>()))
+}
+
+fn read(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    size: u64,
+    record: impl FnOnce(&mut wgpu::CommandEncoder, &wgpu::Buffer),
+) -> Result<Vec<u8>, GpuError> {
+    let staging = device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("readback"),
+        size,
+        usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("readback") });
+    record(&mut encoder, &staging);
+    let (sender, receiver) = std::sync::mpsc::channel();
+    encoder.map_buffer_on_submit(&staging, wgpu::MapMode::Read, .., move |result| {
+        // The receiver waits below; it is gone only when waiting itself failed.
+        let _ = sender.send(result);
+    });
+    queue.submit([encoder.finish()]);
+    let failed = |error: &dyn std::fmt::Display| GpuError::Device(error.to_string());
+    device.poll(wgpu::PollType::wait_indefinitely()).map_err(|e| failed(&e))?;
+    receiver.recv().map_err(|e| failed(&e))?.map_err(|e| failed(&e))?;
+    let view = staging.get_mapped_range(..).map_err(|e| failed(&e))?;
+    Ok(view.to_vec())
+}

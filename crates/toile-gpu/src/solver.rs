@@ -1,0 +1,263 @@
+//! The solver: records the passes of a plan.
+
+use crate::buffers::{Buffers, MOVING_UNIFORM_STRIDE, uniform_bytes};
+use crate::status::StatusReader;
+use crate::timing::Timer;
+use crate::{BodyMaps, GpuError, Pass, Plan, Program};
+use std::collections::BTreeMap;
+use toile_kernels::{Kernel, structs};
+use toile_model::{Merge, Model, Needs, Status, StepSettings};
+use toile_scene::Sphere;
+use wgpu::util::DeviceExt;
+
+/// What a cloth collides with.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Colliders<'a> {
+    /// Mesh bodies and inner garments, as maps.
+    pub maps: Option<&'a BodyMaps>,
+    /// An analytic sphere.
+    pub sphere: Option<Sphere>,
+}
+
+/// One cloth on a device.
+#[derive(Debug)]
+pub struct Solver {
+    settings: StepSettings,
+    plan: Plan,
+    buffers: Buffers,
+    programs: BTreeMap<Kernel, BoundProgram>,
+    sphere: Option<Sphere>,
+    sphere_after_maps: bool,
+    limit_colour_count: u32,
+    particle_count: u32,
+    status: StatusReader,
+    step: u64,
+}
+
+#[derive(Debug)]
+struct BoundProgram {
+    program: Program,
+    group: wgpu::BindGroup,
+}
+
+impl Solver {
+    /// Builds the pipelines and buffers that the model needs, and nothing else.
+    ///
+    /// # Errors
+    /// [`GpuError::BufferTooLarge`] when the model does not fit the device.
+    pub fn new(
+        device: &wgpu::Device,
+        model: &Model,
+        settings: &StepSettings,
+        colliders: Colliders<'_>,
+    ) -> Result<Self, GpuError> {
+        let needs = Needs::new(model, settings, colliders.maps.is_some(), colliders.sphere.is_some());
+        let plan = Plan::new(model, &needs, settings.sweeps);
+        let programs: Vec<_> = plan.kernels().into_iter().map(|kernel| (kernel, Program::new(device, kernel))).collect();
+        let bindings = programs.iter().flat_map(|(_, program)| &program.interface().bindings);
+        let buffers = Buffers::new(device, model, settings, bindings)?;
+        let bound = |(kernel, program): (Kernel, Program)| {
+            let group = program.bind(device, |binding| {
+                if let Some(map) = colliders.maps.and_then(|maps| maps.resource(&binding.name)) {
+                    return map;
+                }
+                let buffer = buffers.get(&binding.name);
+                let size = match binding.name.as_str() {
+                    "span" => moving_size::<structs::Span>(),
+                    "ball" => moving_size::<structs::Ball>(),
+                    _ => None,
+                };
+                wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size })
+            });
+            (kernel, BoundProgram { program, group })
+        };
+        let programs = programs.into_iter().map(bound).collect();
+        Ok(Self {
+            settings: settings.clone(),
+            plan,
+            programs,
+            sphere: colliders.sphere,
+            sphere_after_maps: colliders.maps.is_some(),
+            limit_colour_count: model.colour_count(),
+            particle_count: model.particle_count(),
+            status: StatusReader::new(device),
+            step: 0,
+            buffers,
+        })
+    }
+
+    /// Records one frame: its steps, then normals and status.
+    pub fn record_frame(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder) {
+        self.record_steps(device, encoder, self.settings.steps_per_frame);
+        self.record_outputs(encoder);
+    }
+
+    /// Records steps, at most as many as a frame has.
+    ///
+    /// # Panics
+    /// When `count` is larger than the settings' steps per frame.
+    pub fn record_steps(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, count: u32) {
+        assert!(count <= self.settings.steps_per_frame, "a frame has {} steps", self.settings.steps_per_frame);
+        self.record_sphere(device, encoder, count);
+        let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+        for index in 0..count {
+            for pass in &self.plan.step {
+                self.dispatch(&mut compute, pass, index);
+            }
+        }
+        self.step += u64::from(count);
+    }
+
+    /// Records normals and status of the present state.
+    pub fn record_outputs(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        let status = self.buffers.get("status");
+        encoder.clear_buffer(status, 0, None);
+        let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+        for pass in &self.plan.frame {
+            self.dispatch(&mut compute, pass, 0);
+        }
+        drop(compute);
+        self.status.record(encoder, status, self.step);
+    }
+
+    /// Records one step with the time of each pass, beside a state copy. For measuring only: every dispatch is a pass of its own.
+    pub fn record_timed_step(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, timer: &mut Timer) {
+        self.record_sphere(device, encoder, 1);
+        for pass in &self.plan.step {
+            timer.record(encoder, pass.kernel, |compute| self.dispatch(compute, pass, 0));
+        }
+        timer.record_state_copy(device, encoder, self.particle_count, |name| self.buffers.get(name));
+        self.step += 1;
+    }
+
+    /// Records the handover from the solver of an open model to this one of the sewn model.
+    pub fn record_merge(
+        &mut self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        open: &Solver,
+        merge: &Merge,
+    ) {
+        let program = Program::new(device, Kernel::MergeParticles);
+        let words = |label, values: &[u32]| {
+            device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some(label),
+                contents: bytemuck::cast_slice(values),
+                usage: wgpu::BufferUsages::STORAGE,
+            })
+        };
+        let offsets = words("member_offsets", &merge.members.offsets);
+        let members = words("members", &merge.members.values);
+        let group = program.bind(device, |binding| {
+            match binding.name.as_str() {
+                "member_offsets" => &offsets,
+                "members" => &members,
+                "open_positions" => open.buffers.get("positions"),
+                "open_velocities" => open.buffers.get("velocities"),
+                name => self.buffers.get(name),
+            }
+            .as_entire_binding()
+        });
+        let pass = Pass { kernel: Kernel::MergeParticles, items: 0..self.particle_count, colour: None };
+        let [x, y] = pass.workgroups();
+        let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+        compute.set_pipeline(program.pipeline());
+        compute.set_bind_group(0, &group, &[]);
+        compute.dispatch_workgroups(x, y, 1);
+        self.step = open.step;
+    }
+
+    /// The newest status that has arrived, without waiting; `None` before the first frame is done.
+    pub fn status(&mut self) -> Option<Status> {
+        self.status.latest()
+    }
+
+    /// Positions [m] and inverse masses [1/kg] of the particles, vec4 each; usage `VERTEX`, `STORAGE`, `COPY_SRC`, `COPY_DST`.
+    pub fn positions(&self) -> &wgpu::Buffer {
+        self.buffers.get("positions")
+    }
+
+    /// Velocities [m/s] and masses [kg] of the particles, vec4 each.
+    pub fn velocities(&self) -> &wgpu::Buffer {
+        self.buffers.get("velocities")
+    }
+
+    /// Unit normals out of the cloth at the end of the last frame, vec4 each, xyz used.
+    pub fn normals(&self) -> &wgpu::Buffer {
+        self.buffers.get("normals")
+    }
+
+    /// What each particle touched in the last step, two vec4 each; `None` without a body.
+    pub fn contacts(&self) -> Option<&wgpu::Buffer> {
+        self.buffers.find("contacts")
+    }
+
+    /// The passes of a step and of a frame.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// The numbers of a step.
+    pub fn settings(&self) -> &StepSettings {
+        &self.settings
+    }
+
+    /// Steps recorded so far.
+    pub fn step(&self) -> u64 {
+        self.step
+    }
+
+    /// Bytes of all buffers; maps are counted by [`BodyMaps::bytes`].
+    pub fn bytes(&self) -> u64 {
+        self.buffers.bytes()
+    }
+
+    /// Name and bytes of each buffer.
+    pub fn buffer_sizes(&self) -> impl Iterator<Item = (&str, u64)> {
+        self.buffers.sizes()
+    }
+
+    fn dispatch(&self, compute: &mut wgpu::ComputePass<'_>, pass: &Pass, step_of_frame: u32) {
+        let bound = &self.programs[&pass.kernel];
+        compute.set_pipeline(bound.program.pipeline());
+        let entry = match (pass.kernel, pass.colour) {
+            (Kernel::CloseSeams, Some(colour)) => self.limit_colour_count + colour,
+            (_, Some(colour)) => colour,
+            (_, None) => step_of_frame,
+        };
+        if bound.program.has_moving_uniform() {
+            compute.set_bind_group(0, &bound.group, &[entry * MOVING_UNIFORM_STRIDE as u32]);
+        } else {
+            compute.set_bind_group(0, &bound.group, &[]);
+        }
+        let [x, y] = pass.workgroups();
+        compute.dispatch_workgroups(x, y, 1);
+    }
+
+    /// Records where the sphere is in each of the coming steps.
+    fn record_sphere(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, count: u32) {
+        let Some(sphere) = &self.sphere else { return };
+        let mut bytes = Vec::new();
+        for index in 0..u64::from(count) {
+            let (centre, velocity) = sphere.at((self.step + index + 1) as f64 * f64::from(self.settings.dt));
+            bytes.extend(uniform_bytes(&structs::Ball {
+                centre: centre.as_vec3(),
+                radius: sphere.radius as f32 + self.settings.thickness,
+                velocity: velocity.as_vec3(),
+                after_maps: u32::from(self.sphere_after_maps),
+            }));
+            bytes.resize(bytes.len().next_multiple_of(MOVING_UNIFORM_STRIDE as usize), 0);
+        }
+        // A buffer of its own, not a queue write: the caller may record several frames before submitting any.
+        let upload = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("ball upload"),
+            contents: &bytes,
+            usage: wgpu::BufferUsages::COPY_SRC,
+        });
+        encoder.copy_buffer_to_buffer(&upload, 0, self.buffers.get("ball"), 0, bytes.len() as u64);
+    }
+}
+
+fn moving_size<T: encase::ShaderType>() -> Option<std::num::NonZeroU64> {
+    Some(T::min_size())
+}

@@ -1,0 +1,95 @@
+//! The status of past frames, read without stalling: a few small buffers that map themselves when their frame is done.
+
+use encase::StorageBuffer;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU8, Ordering};
+use toile_kernels::structs;
+use toile_model::Status;
+
+/// Frames whose status can be under way at once. A frame that finds no free slot is not reported.
+const SLOT_COUNT: usize = 8;
+
+const FREE: u8 = 0;
+const PENDING: u8 = 1;
+const READY: u8 = 2;
+
+#[derive(Debug)]
+struct Slot {
+    buffer: wgpu::Buffer,
+    state: Arc<AtomicU8>,
+    step: u64,
+}
+
+/// Reads the status of past frames without stalling.
+#[derive(Debug)]
+pub(crate) struct StatusReader {
+    slots: Vec<Slot>,
+    latest: Option<Status>,
+}
+
+impl StatusReader {
+    pub(crate) fn new(device: &wgpu::Device) -> Self {
+        let size = <structs::Status as encase::ShaderType>::min_size().get().next_multiple_of(16);
+        let slot = |_| Slot {
+            buffer: device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("status readback"),
+                size,
+                usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            }),
+            state: Arc::new(AtomicU8::new(FREE)),
+            step: 0,
+        };
+        Self { slots: (0..SLOT_COUNT).map(slot).collect(), latest: None }
+    }
+
+    /// Records the copy of the status buffer after step `step`; it maps itself once the encoder's commands are done.
+    pub(crate) fn record(&mut self, encoder: &mut wgpu::CommandEncoder, status: &wgpu::Buffer, step: u64) {
+        self.collect();
+        let Some(slot) = self.slots.iter_mut().find(|s| s.state.load(Ordering::Acquire) == FREE) else { return };
+        slot.step = step;
+        slot.state.store(PENDING, Ordering::Release);
+        encoder.copy_buffer_to_buffer(status, 0, &slot.buffer, 0, status.size().min(slot.buffer.size()));
+        let state = slot.state.clone();
+        encoder.map_buffer_on_submit(&slot.buffer, wgpu::MapMode::Read, .., move |result| {
+            state.store(if result.is_ok() { READY } else { FREE }, Ordering::Release);
+        });
+    }
+
+    /// The newest status that has arrived.
+    pub(crate) fn latest(&mut self) -> Option<Status> {
+        self.collect();
+        self.latest
+    }
+
+    fn collect(&mut self) {
+        for slot in &mut self.slots {
+            if slot.state.load(Ordering::Acquire) != READY {
+                continue;
+            }
+            if let Ok(view) = slot.buffer.get_mapped_range(..) {
+                let mut raw = structs::Status::default();
+                if StorageBuffer::new(view.to_vec()).read(&mut raw).is_ok()
+                    && self.latest.is_none_or(|latest| slot.step >= latest.step)
+                {
+                    self.latest = Some(decode(&raw, slot.step));
+                }
+            }
+            slot.buffer.unmap();
+            slot.state.store(FREE, Ordering::Release);
+        }
+    }
+}
+
+fn decode(raw: &structs::Status, step: u64) -> Status {
+    Status {
+        step,
+        non_finite_count: raw.non_finite_count,
+        first_non_finite: (raw.non_finite_count > 0).then(|| u32::MAX - raw.first_non_finite),
+        speed_max: f32::from_bits(raw.speed_max),
+        kinetic_energy: raw.kinetic_energy,
+        elongation_max: f32::from_bits(raw.elongation_max),
+        over_long_count: raw.over_long_count,
+        seam_gap_max: f32::from_bits(raw.seam_gap_max),
+    }
+}

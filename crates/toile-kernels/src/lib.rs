@@ -1,0 +1,15 @@
+//! The WGSL as text, the kernel table, imports, reflection, shared structs. Nothing here knows wgpu.
+//!
+//! A new pass is one WGSL file and one row in [`TABLE`]; its bindings, workgroup size, reads and writes come from the WGSL
+//! itself, by global name ([`Interface`]).
+
+mod import;
+mod reflect;
+pub mod structs;
+mod table;
+
+pub use reflect::{Binding, Interface, Resource, StructField, StructLayout};
+pub use table::{Domain, Kernel, Need, Row, Stage, TABLE, render_maps_source};
+
+/// Invocations of one workgroup of every compute kernel.
+pub const WORKGROUP_SIZE: u32 = 64;

@@ -1,0 +1,198 @@
+//! The structs that Rust and WGSL share. encase lays them out; a test compares each with naga's layout of the WGSL.
+
+use encase::ShaderType;
+use glam::Vec3;
+
+/// The numbers of one step, the same for every particle. `wgsl/shared/step_params.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct StepParams {
+    /// Gravity [m/s²].
+    pub gravity: Vec3,
+    /// Time step [s].
+    pub dt: f32,
+    /// Viscous damping rate [1/s].
+    pub damping: f32,
+    /// Largest speed on the way out of a body [m/s].
+    pub push_speed: f32,
+    /// A point nearer than this is in contact [m].
+    pub contact_margin: f32,
+    /// C_refl of W eq. 15 [1].
+    pub reflection: f32,
+    /// 0 Coulomb, 1 the papers'.
+    pub friction_law: u32,
+    /// Coulomb's coefficient [1].
+    pub friction: f32,
+    /// C_fric of W eq. 15 [1].
+    pub velocity_kept: f32,
+    /// C_fric of W eq. 16 [1].
+    pub force_removed: f32,
+    /// Acceleration of a held edge per metre from its height [1/s²].
+    pub hold_stiffness: f32,
+    /// Largest acceleration of a held edge [m/s²].
+    pub hold_acceleration: f32,
+    /// Fastest shortening of a spring that is over-long already [m/s].
+    pub recovery_speed: f32,
+    /// Number of particles.
+    pub particle_count: u32,
+    /// Number of quads.
+    pub quad_count: u32,
+}
+
+/// The part of an array that one dispatch works on. `wgsl/shared/span.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct Span {
+    /// First item.
+    pub first: u32,
+    /// Number of items.
+    pub count: u32,
+}
+
+/// Rest length and stiffness of a link. `wgsl/step/spring_forces.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct LinkSpring {
+    /// Rest length [m].
+    pub rest_length: f32,
+    /// Stiffness [N/m].
+    pub stiffness: f32,
+}
+
+/// A unilateral maximum length. `wgsl/shared/limit.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct Limit {
+    /// One particle.
+    pub first: u32,
+    /// The other.
+    pub second: u32,
+    /// Rest length [m].
+    pub rest_length: f32,
+    /// Maximum length [m].
+    pub max_length: f32,
+}
+
+/// Two particles that a seam pulls together. `wgsl/shared/seam_pair.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct SeamPair {
+    /// One particle.
+    pub first: u32,
+    /// The other.
+    pub second: u32,
+    /// Closing speed [m/s].
+    pub closing_speed: f32,
+}
+
+/// A particle held at its height. `wgsl/step/hold_edges.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct Hold {
+    /// The particle.
+    pub particle: u32,
+    /// Its height [m].
+    pub height: f32,
+}
+
+/// Mean of the corners of a quad. `wgsl/shared/midpoint.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct Midpoint {
+    /// Position [m].
+    pub position: Vec3,
+    /// Velocity [m/s].
+    pub velocity: Vec3,
+}
+
+/// What a point sees of the bodies. `wgsl/shared/probe.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct Probe {
+    /// Unit normal out of the body.
+    pub normal: Vec3,
+    /// Distance to the surface, negative inside [m].
+    pub distance: f32,
+    /// Velocity of the surface [m/s].
+    pub velocity: Vec3,
+    /// 1 near enough to matter, 0 not.
+    pub hit: f32,
+}
+
+/// How a point answers a collision. `wgsl/shared/response.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct Response {
+    /// Change of the velocity [m/s].
+    pub change: Vec3,
+    /// 1 in contact, 0 not.
+    pub touching: f32,
+    /// Change of the position [m].
+    pub push: Vec3,
+    /// Fills the last word.
+    pub padding: f32,
+}
+
+/// What a particle touched. `wgsl/shared/contact.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct Contact {
+    /// Unit normal out of the body.
+    pub normal: Vec3,
+    /// 1 in contact, 0 not.
+    pub touching: f32,
+    /// Velocity of the body at the contact [m/s].
+    pub velocity: Vec3,
+    /// Fills the last word.
+    pub padding: f32,
+}
+
+/// Where the two map cameras stand. `wgsl/shared/map_frame.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct MapFrame {
+    /// Left edge [m].
+    pub origin_x: f32,
+    /// Top edge [m].
+    pub origin_y: f32,
+    /// Edge length of a texel [m].
+    pub texel: f32,
+    /// Plane of the front camera [m].
+    pub z_front: f32,
+    /// Plane of the back camera [m].
+    pub z_back: f32,
+    /// Texels along x.
+    pub columns: u32,
+    /// Texels along y.
+    pub rows: u32,
+}
+
+/// Which camera draws, and how far the surface is offset. `wgsl/maps/render_maps.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct Side {
+    /// 0 front, 1 back.
+    pub side: u32,
+    /// Offset along the normals [m].
+    pub thickness: f32,
+}
+
+/// The analytic sphere during one step. `wgsl/step/sample_sphere.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct Ball {
+    /// Centre [m].
+    pub centre: Vec3,
+    /// Radius with the thickness of the cloth [m].
+    pub radius: f32,
+    /// Velocity [m/s].
+    pub velocity: Vec3,
+    /// 1 when the probes already hold what the points see in the maps.
+    pub after_maps: u32,
+}
+
+/// What a frame reports. `wgsl/shared/status.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct Status {
+    /// Particles that are not finite.
+    pub non_finite_count: u32,
+    /// `u32::MAX` minus the index of the first of them; 0: none.
+    pub first_non_finite: u32,
+    /// Bits of the largest speed [m/s].
+    pub speed_max: u32,
+    /// Bits of the largest elongation [1].
+    pub elongation_max: u32,
+    /// Limits that are exceeded.
+    pub over_long_count: u32,
+    /// Bits of the largest seam gap [m].
+    pub seam_gap_max: u32,
+    /// Kinetic energy [J].
+    pub kinetic_energy: f32,
+}

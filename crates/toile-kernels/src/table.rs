@@ -1,0 +1,179 @@
+//! The kernel table. The order of its rows is the algorithm.
+
+use crate::import::resolve;
+
+/// In which part of a run a kernel works.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Stage {
+    /// Once per step.
+    Step,
+    /// Once per sweep: consecutive rows of this stage are repeated together as often as the settings say.
+    Sweep,
+    /// Once per frame, after its steps.
+    Frame,
+    /// Once, when the open model becomes the sewn one.
+    Handover,
+    /// Only when a run is measured.
+    Measure,
+}
+
+/// What one invocation works on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Domain {
+    /// A particle.
+    Particle,
+    /// A quad.
+    Quad,
+    /// A particle or a quad midpoint.
+    Point,
+    /// A held particle.
+    Hold,
+    /// A limit.
+    Limit,
+    /// A limit; one dispatch per colour.
+    LimitColour,
+    /// A seam pair.
+    SeamPair,
+    /// A seam pair; one dispatch per colour.
+    SeamColour,
+    /// One workgroup in all.
+    Workgroup,
+}
+
+/// What a scene must have for a kernel to be in its plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Need {
+    /// Nothing.
+    Nothing,
+    /// Any body.
+    Body,
+    /// A mesh body.
+    Maps,
+    /// An analytic sphere.
+    Sphere,
+    /// Held edges.
+    Holds,
+    /// Open seams.
+    Seams,
+    /// Limits.
+    Limits,
+    /// Limits under the rule Zero.
+    RuleZero,
+    /// Limits under the rule Average.
+    RuleAverage,
+    /// Limits under the rule Directional.
+    RuleDirectional,
+    /// Limits under the rule Predictive.
+    RulePredictive,
+    /// Limits under the rule Position.
+    RulePosition,
+}
+
+/// One row of the kernel table.
+#[derive(Clone, Copy, Debug)]
+pub struct Row {
+    /// The kernel.
+    pub kernel: Kernel,
+    /// When it works.
+    pub stage: Stage,
+    /// What one invocation works on.
+    pub domain: Domain,
+    /// What the scene must have.
+    pub need: Need,
+}
+
+macro_rules! kernels {
+    ($($(#[$doc:meta])* $kernel:ident $folder:literal $name:literal $stage:ident $domain:ident $need:ident;)*) => {
+        /// A WGSL entry point.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub enum Kernel {
+            $($(#[$doc])* $kernel,)*
+        }
+
+        /// Every compute kernel, in the order in which a step, a frame and a handover run them.
+        pub const TABLE: &[Row] = &[
+            $(Row {
+                kernel: Kernel::$kernel,
+                stage: Stage::$stage,
+                domain: Domain::$domain,
+                need: Need::$need,
+            },)*
+        ];
+
+        impl Kernel {
+            /// Name of the entry point, of its WGSL file and of its reference.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Kernel::$kernel => $name,)*
+                }
+            }
+
+            fn text(self) -> &'static str {
+                match self {
+                    $(Kernel::$kernel => include_str!(concat!("../../../wgsl/", $folder, "/", $name, ".wgsl")),)*
+                }
+            }
+        }
+    };
+}
+
+kernels! {
+    /// Springs, gravity and damping. D eq. 2.
+    SpringForces "step" "spring_forces" Step Particle Nothing;
+    /// Reaction of the body to the pressing force. W eq. 16.
+    Reaction "step" "reaction" Step Particle Body;
+    /// Velocities from forces. W eq. 3.
+    Euler "step" "euler" Step Particle Nothing;
+    /// Labelled edges stay at their height while sewing.
+    HoldEdges "step" "hold_edges" Step Hold Holds;
+    /// Seams close at a set speed.
+    CloseSeams "step" "close_seams" Sweep SeamColour Seams;
+    /// D §4.3.
+    LimitZero "step" "limit_zero" Sweep LimitColour RuleZero;
+    /// W eq. 5.
+    LimitAverage "step" "limit_average" Sweep LimitColour RuleAverage;
+    /// W §3.2, eq. 6.
+    LimitDirectional "step" "limit_directional" Sweep LimitColour RuleDirectional;
+    /// The default rule.
+    LimitPredictive "step" "limit_predictive" Sweep LimitColour RulePredictive;
+    /// Points of the quads that are tested. D §6.
+    QuadMidpoints "step" "quad_midpoints" Step Quad Body;
+    /// What points see in the maps. W §4.4.
+    SampleMaps "step" "sample_maps" Step Point Maps;
+    /// What points see of the sphere.
+    SampleSphere "step" "sample_sphere" Step Point Sphere;
+    /// Response of each midpoint. W eq. 15.
+    QuadResponses "step" "quad_responses" Step Quad Body;
+    /// Response of each particle, averaged with those of its quads. D §6.
+    Collide "step" "collide" Step Particle Body;
+    /// Positions move last. W eq. 3.
+    MoveParticles "step" "move_particles" Step Particle Nothing;
+    /// Provot's rule, after the move. W §3.1.
+    LimitPosition "step" "limit_position" Sweep LimitColour RulePosition;
+    /// Normals for renderers and later maps.
+    ParticleNormals "frame" "particle_normals" Frame Particle Nothing;
+    /// Non-finite particles, speed, energy of each workgroup.
+    ParticleStatus "frame" "particle_status" Frame Particle Nothing;
+    /// Kinetic energy.
+    TotalEnergy "frame" "total_energy" Frame Workgroup Nothing;
+    /// Elongation.
+    LimitStatus "frame" "limit_status" Frame Limit Limits;
+    /// Seam gap.
+    SeamStatus "frame" "seam_status" Frame SeamPair Seams;
+    /// From the open to the sewn model.
+    MergeParticles "frame" "merge_particles" Handover Particle Nothing;
+    /// The unit of cost.
+    StateCopy "frame" "state_copy" Measure Particle Nothing;
+}
+
+impl Kernel {
+    /// The whole WGSL of the kernel, imports resolved.
+    pub fn source(self) -> String {
+        resolve(self.text())
+    }
+}
+
+/// The WGSL of the render pass that draws the depth and normal maps: vertex entry `draw_surface`, fragment entry `write_normal`.
+pub fn render_maps_source() -> String {
+    resolve(include_str!("../../../wgsl/maps/render_maps.wgsl"))
+}

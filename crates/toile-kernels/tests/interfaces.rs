@@ -1,0 +1,29 @@
+//! Every kernel is valid WGSL under the limits of WebGPU, and says of itself what the table says.
+
+use toile_kernels::{Interface, Resource, TABLE, WORKGROUP_SIZE};
+
+#[test]
+fn every_kernel_is_named_like_its_entry_point_and_fits_the_default_limits() {
+    for row in TABLE {
+        let interface = Interface::of(row.kernel);
+        assert_eq!(interface.entry, row.kernel.name());
+        assert_eq!(interface.workgroup_size, [WORKGROUP_SIZE, 1, 1], "{}", interface.entry);
+        let storage = interface.bindings.iter().filter(|b| matches!(b.resource, Resource::Storage { .. })).count();
+        assert!(storage <= 8, "{} binds {storage} storage buffers", interface.entry);
+    }
+}
+
+#[test]
+fn a_name_is_the_same_resource_in_every_kernel() {
+    let mut known: std::collections::BTreeMap<String, (Resource, &str)> = Default::default();
+    for row in TABLE {
+        for binding in Interface::of(row.kernel).bindings {
+            let resource = match binding.resource {
+                Resource::Storage { stride, .. } => Resource::Storage { written: false, stride },
+                other => other,
+            };
+            let (first, by) = known.entry(binding.name.clone()).or_insert((resource, row.kernel.name()));
+            assert_eq!(*first, resource, "{} in {} and in {by}", binding.name, row.kernel.name());
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! The arrays that follow from springs and quads: links, limits, colours, rows of quads.
+
+use crate::colouring::{Pair, sort_by_colour};
+use crate::geometry::corners;
+use crate::soften::soften;
+use crate::{Csr, Limit, Link, Model, Spring, SpringKind};
+
+impl Model {
+    /// Fills what follows from springs, seam pairs and quads.
+    pub(crate) fn complete(mut self) -> Self {
+        let count = self.positions.len();
+        self.links = self.links_of_springs();
+        if let Some(step) = self.step_wanted {
+            soften(&mut self.links, &self.inverse_masses, step);
+        }
+        let limited = || self.springs.iter().filter(|s| matches!(s.kind, SpringKind::Structural | SpringKind::Shear));
+        let mut limits: Vec<Limit> = limited()
+            .map(|s| Limit {
+                ends: s.ends,
+                rest_length: s.rest_length,
+                max_length: (1.0 + self.threshold) * s.rest_length,
+            })
+            .collect();
+        let above = self.above();
+        let pairs: Vec<Pair> = limited().map(|s| Pair { ends: s.ends, family: family(s, &above) }).collect();
+        self.limit_colours = sort_by_colour(&mut limits, &pairs, count);
+        self.limits = limits;
+        let pairs: Vec<Pair> = self.seam_pairs.iter().map(|p| Pair { ends: p.ends, family: None }).collect();
+        self.seam_colours = sort_by_colour(&mut self.seam_pairs, &pairs, count);
+        let mut rows = vec![Vec::new(); count];
+        for (q, quad) in self.quads.iter().enumerate() {
+            for &corner in corners(quad) {
+                rows[corner as usize].push(q as u32);
+            }
+        }
+        self.particle_quads = Csr::from_rows(rows);
+        self
+    }
+
+    /// For each particle its neighbour in the next row: particles are numbered row by row.
+    fn above(&self) -> Vec<Option<u32>> {
+        let mut above = vec![None; self.positions.len()];
+        for spring in self.springs.iter().filter(|s| s.kind == SpringKind::Structural) {
+            let [a, b] = spring.ends;
+            if b > a + 1 {
+                above[a as usize] = Some(b);
+            }
+        }
+        above
+    }
+
+    fn links_of_springs(&self) -> Csr<Link> {
+        let mut rows = vec![Vec::new(); self.positions.len()];
+        for spring in &self.springs {
+            let [a, b] = spring.ends;
+            for (here, other) in [(a, b), (b, a)] {
+                rows[here as usize].push(Link { other, rest_length: spring.rest_length, stiffness: spring.stiffness });
+            }
+        }
+        Csr::from_rows(rows)
+    }
+}
+
+/// Direction of a structural or shear spring as the numbering row by row tells it: along the row, to the next row, and the diagonals to
+/// both sides of that. Exact on a grid; elsewhere no more than a good guess, which is all that colouring needs.
+fn family(spring: &Spring, above: &[Option<u32>]) -> Option<u32> {
+    let [a, b] = spring.ends;
+    match (spring.kind, above[a as usize]) {
+        (SpringKind::Structural, _) if b == a + 1 => Some(0),
+        (SpringKind::Structural, _) => Some(1),
+        (SpringKind::Shear, Some(above)) if b < above => Some(2),
+        (SpringKind::Shear, Some(_)) => Some(3),
+        _ => None,
+    }
+}

@@ -1,0 +1,38 @@
+//! A scene turned into immutable arrays: meshing, springs, sewing, limits, colouring.
+//!
+//! [`Model`] is what the solvers (GPU and reference) read. It is built once on the CPU and never changes.
+
+mod assemble;
+mod colouring;
+mod csr;
+mod dressing;
+mod elements;
+mod error;
+mod fan;
+mod flat_mesh;
+mod geometry;
+mod lattice;
+mod map_frame;
+mod model;
+mod needs;
+mod open;
+mod outline;
+mod rectangle;
+mod rim;
+mod seams;
+mod sewn;
+mod smoothing;
+mod soften;
+mod springs;
+mod status;
+mod step;
+mod union_find;
+
+pub use csr::Csr;
+pub use dressing::{Dressing, DressingError, Stage};
+pub use error::ModelError;
+pub use map_frame::MapFrame;
+pub use model::{Hold, Limit, Link, Merge, Model, NO_CORNER, PanelMesh, SeamPair, Spring, SpringKind};
+pub use needs::Needs;
+pub use status::Status;
+pub use step::StepSettings;

@@ -1,0 +1,208 @@
+//! The open model: sheets as grids, panels where they are placed, seams not yet closed.
+
+use crate::flat_mesh::FlatMesh;
+use crate::geometry::{angle_range, corners, element_area, signed_area};
+use crate::outline::outlines;
+use crate::seams::seam_pairs;
+use crate::soften::step_wanted;
+use crate::springs::{Role, panel_springs};
+use crate::{Hold, Model, ModelError, PanelMesh, Spring, SpringKind, rectangle, rim};
+use glam::{DVec2, DVec3};
+use toile_scene::{Garment, Settings, Sheet};
+
+/// Largest particle count of a garment: four times the 1024² grid that the step is made for.
+const PARTICLE_LIMIT: u64 = 4_000_000;
+
+impl Model {
+    /// The grid of a sheet. Its flat x runs along `right`, its flat y along `down`.
+    ///
+    /// # Panics
+    /// When the sheet has fewer than two columns or rows, or a pin lies outside of it.
+    pub fn from_sheet(sheet: &Sheet, settings: &Settings) -> Self {
+        let [columns, rows] = [sheet.columns, sheet.rows];
+        assert!(columns >= 2 && rows >= 2, "a sheet has at least two columns and two rows");
+        let step = sheet.size / DVec2::new(f64::from(columns - 1), f64::from(rows - 1));
+        let flat: Vec<DVec2> =
+            (0..rows).flat_map(|r| (0..columns).map(move |c| DVec2::new(f64::from(c), f64::from(r)) * step)).collect();
+        let places: Vec<DVec3> = flat.iter().map(|p| sheet.corner + sheet.right * p.x + sheet.down * p.y).collect();
+        let quads = (0..rows - 1)
+            .flat_map(|r| (0..columns - 1).map(move |c| r * columns + c))
+            .map(|first| [first, first + 1, first + columns + 1, first + columns])
+            .collect();
+        let mut model = Self::from_flat(flat, &places, quads, settings);
+        for pin in &sheet.pins {
+            assert!(pin.column < columns && pin.row < rows, "the pins of a sheet are particles of it");
+            model.inverse_masses[(pin.row * columns + pin.column) as usize] = 0.0;
+        }
+        model.panels = vec![PanelMesh {
+            name: sheet.name.clone(),
+            particles: 0..model.particle_count(),
+            quads: 0..model.quad_count(),
+            worst_angle: 90.0,
+        }];
+        model.complete()
+    }
+
+    /// The open model of a garment: panels where they are placed, seams as springs of zero rest length and as pairs to close.
+    ///
+    /// # Errors
+    /// When the spacing is no positive length or gives too many particles, and when the outline of a panel encloses nothing, crosses
+    /// itself, or cannot be meshed.
+    ///
+    /// # Panics
+    /// When a seam names a panel or edge that does not exist.
+    pub fn from_garment(garment: &Garment, settings: &Settings) -> Result<Self, ModelError> {
+        let spacing = settings.spacing;
+        if !(spacing > 0.0 && spacing.is_finite()) {
+            return Err(ModelError::Spacing { spacing });
+        }
+        check_size(garment, spacing)?;
+        let meshes = panel_meshes(garment, spacing)?;
+        let mut flat = Vec::new();
+        let mut places = Vec::new();
+        let mut quads: Vec<[u32; 4]> = Vec::new();
+        let mut panels = Vec::new();
+        let mut edge_particles = Vec::new();
+        for (panel, mesh) in garment.panels.iter().zip(&meshes) {
+            let first = flat.len() as u32;
+            let first_quad = quads.len() as u32;
+            flat.extend_from_slice(&mesh.points);
+            places.extend(mesh.points.iter().map(|p| panel.placement.world(*p)));
+            quads.extend(mesh.elements.iter().map(|e| placed(e, first, mesh.clockwise)));
+            edge_particles
+                .push(mesh.edges.iter().map(|e| e.iter().map(|i| i + first).collect()).collect::<Vec<Vec<u32>>>());
+            panels.push(PanelMesh {
+                name: panel.name.clone(),
+                particles: first..flat.len() as u32,
+                quads: first_quad..quads.len() as u32,
+                worst_angle: mesh.worst_angle() as f32,
+            });
+        }
+        let mut model = Self::from_flat(flat, &places, quads, settings);
+        model.panels = panels;
+        model.holds = holds(garment, &edge_particles, &places);
+        (model.seam_pairs, model.seam_names) = seam_pairs(garment, &edge_particles, &model.positions);
+        let stiffness = settings.fabric.structural_stiffness as f32;
+        let seam_springs = model.seam_pairs.iter().map(|p| Spring {
+            ends: p.ends,
+            rest_length: 0.0,
+            stiffness,
+            kind: SpringKind::Seam,
+        });
+        model.springs.extend(seam_springs);
+        model.springs.sort_by_key(|s| (s.ends, s.kind));
+        Ok(model.complete())
+    }
+
+    /// Particles, masses and springs of flat meshes.
+    fn from_flat(flat: Vec<DVec2>, places: &[DVec3], quads: Vec<[u32; 4]>, settings: &Settings) -> Self {
+        let fabric = &settings.fabric;
+        let mut masses = vec![0.0; flat.len()];
+        for quad in &quads {
+            let loop_ = corners(quad);
+            let share = fabric.areal_density * element_area(quad, &flat).abs() / loop_.len() as f64;
+            loop_.iter().for_each(|&i| masses[i as usize] += share);
+        }
+        let stiffness = [fabric.structural_stiffness, fabric.shear_stiffness, fabric.bend_stiffness].map(|k| k as f32);
+        let spring = |r: Role| Spring {
+            ends: r.ends,
+            rest_length: r.rest_length as f32,
+            stiffness: stiffness[r.kind as usize],
+            kind: r.kind,
+        };
+        Self {
+            positions: places.iter().map(|p| p.as_vec3()).collect(),
+            masses: masses.iter().map(|&m| m as f32).collect(),
+            inverse_masses: masses.iter().map(|&m| (1.0 / m) as f32).collect(),
+            springs: panel_springs(&quads, &flat).into_iter().map(spring).collect(),
+            flat: flat.iter().map(|p| p.as_vec2()).collect(),
+            quads,
+            stiffness,
+            threshold: fabric.threshold as f32,
+            step_wanted: step_wanted(settings),
+            ..Self::default()
+        }
+    }
+}
+
+/// An element of a panel among all particles, counter-clockwise seen from outside: outside of a clockwise panel is its back.
+fn placed(element: &[u32; 4], first: u32, clockwise: bool) -> [u32; 4] {
+    let mut result = *element;
+    let count = corners(element).len();
+    result[..count].iter_mut().for_each(|i| *i += first);
+    if clockwise {
+        result[1..count].reverse();
+    }
+    result
+}
+
+/// Refuses a garment that the solvers' buffers are not meant for, before anything is allocated for it.
+fn check_size(garment: &Garment, spacing: f64) -> Result<(), ModelError> {
+    let count: f64 = garment
+        .panels
+        .iter()
+        .map(|panel| {
+            let points: Vec<DVec2> = (0..panel.edges.len()).flat_map(|e| panel.polyline(e, 0.01)).collect();
+            let length: f64 = points.windows(2).map(|p| p[0].distance(p[1])).sum();
+            signed_area(points.iter().copied()).abs() / (spacing * spacing) + length / spacing
+        })
+        .sum();
+    // Written so that NaN passes: the outline check has the better message.
+    if count > PARTICLE_LIMIT as f64 {
+        return Err(ModelError::TooManyParticles {
+            garment: garment.name.clone(),
+            spacing,
+            count: count as u64,
+            limit: PARTICLE_LIMIT,
+        });
+    }
+    Ok(())
+}
+
+/// The mesh of each panel.
+fn panel_meshes(garment: &Garment, spacing: f64) -> Result<Vec<FlatMesh>, ModelError> {
+    let outlines = outlines(garment, spacing)?;
+    garment
+        .panels
+        .iter()
+        .zip(&outlines)
+        .map(|(panel, outline)| {
+            rectangle::grid(outline)
+                .or_else(|| rim::mesh(outline, spacing))
+                .filter(|mesh| is_valid(mesh, outline.points.iter().copied()))
+                .ok_or_else(|| ModelError::Mesh { panel: panel.name.clone(), spacing })
+        })
+        .collect()
+}
+
+/// Whether no element is inverted, every particle is used and the elements cover the outline exactly.
+fn is_valid(mesh: &FlatMesh, outline: impl Iterator<Item = DVec2> + Clone) -> bool {
+    let mut used = vec![false; mesh.points.len()];
+    let mut area = 0.0;
+    for element in &mesh.elements {
+        let [low, high] = angle_range(element, &mesh.points);
+        if !(low > 0.0 && high < 180.0) {
+            return false;
+        }
+        area += element_area(element, &mesh.points);
+        corners(element).iter().for_each(|&i| used[i as usize] = true);
+    }
+    let wanted = signed_area(outline).abs();
+    used.iter().all(|&u| u) && (area - wanted).abs() <= 1e-9 * wanted
+}
+
+/// Particles of labelled edges with their placed height, each once.
+fn holds(garment: &Garment, edge_particles: &[Vec<Vec<u32>>], places: &[DVec3]) -> Vec<Hold> {
+    let mut particles: Vec<u32> = garment
+        .panels
+        .iter()
+        .zip(edge_particles)
+        .flat_map(|(panel, edges)| panel.edges.iter().zip(edges))
+        .filter(|(edge, _)| edge.label.is_some())
+        .flat_map(|(_, particles)| particles.iter().copied())
+        .collect();
+    particles.sort_unstable();
+    particles.dedup();
+    let height = |i: u32| places[i as usize].y as f32;
+    particles.into_iter().map(|particle| Hold { particle, height: height(particle) }).collect()
+}

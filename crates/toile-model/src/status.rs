@@ -1,0 +1,22 @@
+//! What a solver reports of its state.
+
+/// What a solver reports of its state at the end of a frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Status {
+    /// Steps done so far.
+    pub step: u64,
+    /// Particles whose position or velocity is not finite.
+    pub non_finite_count: u32,
+    /// The first of them, by index.
+    pub first_non_finite: Option<u32>,
+    /// Largest speed [m/s].
+    pub speed_max: f32,
+    /// Kinetic energy of all particles that are not pinned [J].
+    pub kinetic_energy: f32,
+    /// Largest elongation of a structural or shear spring [1]; 0 when none is longer than its rest length.
+    pub elongation_max: f32,
+    /// Number of structural and shear springs longer than their limit.
+    pub over_long_count: u32,
+    /// Largest distance between two particles of a seam pair [m]; 0 without open seams.
+    pub seam_gap_max: f32,
+}

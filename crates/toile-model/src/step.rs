@@ -1,0 +1,82 @@
+//! The numbers of one step, and the largest step that is stable.
+
+use crate::Model;
+use glam::Vec3;
+use toile_scene::{Friction, Rule, Settings};
+
+/// The numbers of one step, the same for every particle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StepSettings {
+    /// Time step [s].
+    pub dt: f32,
+    /// Steps from one frame to the next.
+    pub steps_per_frame: u32,
+    /// Gravity [m/s²].
+    pub gravity: Vec3,
+    /// Viscous damping rate [1/s].
+    pub damping: f32,
+    /// Distance kept from bodies [m].
+    pub thickness: f32,
+    /// Largest speed at which a particle inside a body is moved out [m/s]; it changes positions, not velocities.
+    pub push_speed: f32,
+    /// A particle nearer to the surface than this is in contact [m].
+    pub contact_margin: f32,
+    /// Part of the approach velocity that a collision gives back [1]: C_refl of W eq. 15.
+    pub reflection: f32,
+    /// Friction law.
+    pub law: Friction,
+    /// Coulomb coefficient μ [1].
+    pub friction: f32,
+    /// Acceleration of a held edge per metre from its height [1/s²].
+    pub hold_stiffness: f32,
+    /// Largest acceleration of a held edge [m/s²]: seams and limits are stronger.
+    pub hold_acceleration: f32,
+    /// Fastest shortening of a spring that is over-long already [m/s], under the predictive rule.
+    pub recovery_speed: f32,
+    /// Rule of the velocity modification.
+    pub rule: Rule,
+    /// Sweeps over all limits per step.
+    pub sweeps: u32,
+    /// Elongation that the limits allow [1].
+    pub threshold: f32,
+}
+
+impl StepSettings {
+    /// The step of a model under the settings of its scene: the largest stable one times the safety factor, cut so that a
+    /// whole number of steps makes a frame.
+    pub fn new(settings: &Settings, model: &Model) -> Self {
+        let frame = 1.0 / settings.frame_rate;
+        let bound = settings.safety * stable_step(model);
+        let steps_per_frame = (frame / bound - 1e-3).ceil().max(1.0);
+        Self {
+            dt: (frame / steps_per_frame) as f32,
+            steps_per_frame: steps_per_frame as u32,
+            gravity: settings.gravity.as_vec3(),
+            damping: settings.fabric.damping as f32,
+            thickness: settings.fabric.thickness as f32,
+            push_speed: std::env::var("PUSH").ok().and_then(|v| v.parse().ok()).unwrap_or(0.2),
+            contact_margin: 1e-4,
+            reflection: settings.reflection as f32,
+            law: settings.friction,
+            friction: settings.fabric.friction as f32,
+            hold_stiffness: 100.0,
+            hold_acceleration: 5.0,
+            recovery_speed: std::env::var("REC").ok().and_then(|v| v.parse().ok()).unwrap_or(0.1),
+            rule: settings.velocity_modification.rule,
+            sweeps: settings.velocity_modification.sweeps,
+            threshold: settings.fabric.threshold as f32,
+        }
+    }
+}
+
+/// Largest step [s] at which symplectic Euler is surely stable on this model's springs: 2/ω with Gershgorin's bound
+/// ω² ≤ 2·Σk·w over the springs of a particle. Infinite without springs.
+fn stable_step(model: &Model) -> f64 {
+    let squared_rate = (0..model.positions.len())
+        .map(|i| {
+            let stiffness: f64 = model.links.row(i).iter().map(|l| f64::from(l.stiffness)).sum();
+            2.0 * stiffness * f64::from(model.inverse_masses[i])
+        })
+        .fold(0.0, f64::max);
+    2.0 / squared_rate.sqrt()
+}

@@ -1,0 +1,103 @@
+//! The ten real garments, where they are present.
+
+use crate::support::*;
+use glam::Vec3;
+use std::fmt::Write;
+use std::path::Path;
+use toile_model::{Model, NO_CORNER};
+use toile_scene::Garment;
+
+/// Name, boundary loops when sewn: hems, waist, neck, cuffs.
+const GARMENTS: [(&str, i64); 10] = [
+    ("dress_sleeveless", 4),
+    ("dress_sleeves", 4),
+    ("shirt_long_sleeves", 4),
+    ("shirt_sleeveless", 4),
+    ("shirt_sleeves", 4),
+    ("shorts", 3),
+    ("skirt_2panel", 2),
+    ("skirt_circle", 2),
+    ("skirt_pencil", 2),
+    ("trousers", 3),
+];
+
+fn read(name: &str) -> Option<Garment> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/patterns/garmentcode");
+    if !folder.is_dir() {
+        println!("skipped: {} is not there", folder.display());
+        return None;
+    }
+    Some(toile_files::read_garment(&folder.join(format!("{name}_specification.json"))).unwrap())
+}
+
+#[test]
+fn real_garments_are_sewn_into_what_they_are() {
+    let mut table = String::new();
+    for (name, loops) in GARMENTS {
+        let Some(garment) = read(name) else { return };
+        for spacing in [0.05, 0.03, 0.02, 0.01] {
+            let open = build(&garment, spacing);
+            check_model(&open);
+            check_meshes(&open, &garment);
+            let (sewn, _) = open.sewn();
+            check_model(&sewn);
+            // One piece, its openings, and no handle: χ = 2 − loops.
+            assert_eq!(topology(&sewn), [1, loops, 2 - loops], "{name} at {spacing}");
+            assert_eq!(sewn.quads.len(), open.quads.len(), "{name}: no quad collapses");
+            let worst = open.panels.iter().map(|p| p.worst_angle).fold(180.0, f32::min);
+            assert!(worst > 25.0, "{name} at {spacing}: {worst}°");
+            let triangles = open.quads.iter().filter(|q| q[3] == NO_CORNER).count();
+            writeln!(
+                table,
+                "{name:<18} {spacing:<4} {:>6} particles open {:>6} sewn {:>6} quads {triangles:>4} triangles {:>6} springs {:>3} and {:>2} colours for {:>2} and {:>2} limits {worst:>3.0}°",
+                open.particle_count(),
+                sewn.particle_count(),
+                open.quads.len() - triangles,
+                sewn.spring_count(),
+                open.colour_count(),
+                sewn.colour_count(),
+                degree(&open),
+                degree(&sewn),
+            )
+            .unwrap();
+        }
+    }
+    insta::assert_snapshot!("garments", table);
+}
+
+/// Sum of the squared gaps of one seam.
+fn spread(pairs: &[[Vec3; 2]]) -> f32 {
+    pairs.iter().map(|[a, b]| a.distance_squared(*b)).sum()
+}
+
+#[test]
+fn real_seams_join_the_ends_that_lie_near_to_each_other() {
+    for (name, _) in GARMENTS {
+        let Some(garment) = read(name) else { return };
+        let open: Model = build(&garment, 0.01);
+        assert_eq!(open.seam_names.len(), garment.seams.len());
+        for (index, seam) in open.seam_names.iter().enumerate() {
+            let pairs: Vec<[Vec3; 2]> = open
+                .seam_pairs
+                .iter()
+                .filter(|p| p.seam as usize == index)
+                .map(|p| p.ends.map(|i| open.positions[i as usize]))
+                .collect();
+            // The same particles, joined the other way round: order one side along the seam, turn the other.
+            let count = pairs.len();
+            let Some(&[a, b]) = pairs.first() else { continue };
+            let mut along = pairs.clone();
+            along.sort_by(|p, q| p[0].distance(a).total_cmp(&q[0].distance(a)));
+            let turned: Vec<[Vec3; 2]> = (0..count).map(|k| [along[k][0], along[count - 1 - k][1]]).collect();
+            assert!(spread(&pairs) <= spread(&turned) * 1.001, "{name}: {seam} from {a} and {b}");
+        }
+    }
+}
+
+#[test]
+fn a_real_garment_gives_the_same_model_twice() {
+    let Some(garment) = read("dress_sleeves") else { return };
+    let [one, other] = [0, 1].map(|_| build(&garment, 0.02));
+    assert_eq!(one, other);
+    assert_eq!(one.sewn(), other.sewn());
+}

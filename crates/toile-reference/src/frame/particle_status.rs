@@ -1,0 +1,46 @@
+//! Whether the particles are still finite, how fast they are, and their energy in parts.
+
+use super::{GROUP, tree_sum};
+use crate::Particles;
+
+/// What [`particle_status`] reports.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ParticleStatus {
+    /// Particles whose position or velocity is not finite.
+    pub non_finite_count: u32,
+    /// The first of them, by index.
+    pub first_non_finite: Option<u32>,
+    /// Largest speed [m/s] of all particles whose speed is a number.
+    pub speed_max: f32,
+    /// Kinetic energy [J] of the moving particles of each group of 64, shape [particle_count / 64, rounded up].
+    pub energy_partials: Vec<f32>,
+}
+
+/// Counts what is not finite, and finds the largest speed and the kinetic energy in parts.
+pub fn particle_status(particles: &Particles) -> ParticleStatus {
+    let mut status = ParticleStatus::default();
+    for (i, (position, velocity)) in particles.positions.iter().zip(&particles.velocities).enumerate() {
+        if !(position.is_finite() && velocity.is_finite()) {
+            status.non_finite_count += 1;
+            status.first_non_finite.get_or_insert(i as u32);
+        }
+        let speed = velocity.length();
+        if speed > status.speed_max {
+            status.speed_max = speed;
+        }
+    }
+    let indices: Vec<usize> = (0..particles.positions.len()).collect();
+    status.energy_partials = indices.chunks(GROUP).map(|group| group_energy(particles, group)).collect();
+    status
+}
+
+fn group_energy(particles: &Particles, group: &[usize]) -> f32 {
+    let mut energies = [0.0; GROUP];
+    for (energy, &i) in energies.iter_mut().zip(group) {
+        if particles.inverse_masses[i] > 0.0 {
+            let velocity = particles.velocities[i];
+            *energy = 0.5 * (particles.masses[i] * velocity.dot(velocity));
+        }
+    }
+    tree_sum(energies)
+}

@@ -1,0 +1,21 @@
+//! The CPU answer of every kernel, file for file, and the exact distance to a mesh.
+//!
+//! [`Reference`] lives the life of the GPU simulation: built from a model, stepped, read. Every kernel is also one plain
+//! function in [`step`] or [`frame`]. The order of operations is part of the answer: all arithmetic is f32, unfused and left
+//! to right, so that a GPU that rounds correctly gives the same bits. Nothing here sees WGSL or a GPU struct.
+
+#![expect(clippy::neg_cmp_op_on_partial_ord, reason = "guards are written so that NaN fails them")]
+
+mod contact;
+mod digest;
+mod exact_distance;
+pub mod frame;
+pub mod maps;
+mod particles;
+mod reference;
+pub mod step;
+
+pub use contact::{Contact, Probe, Response};
+pub use exact_distance::{ExactDistance, PenetrationSummary};
+pub use particles::{Ball, Midpoints, Particles};
+pub use reference::{Colliders, Reference};

@@ -1,0 +1,62 @@
+//! The state that a step changes, and what it is measured against.
+
+use glam::Vec3;
+use toile_model::{Model, StepSettings};
+use toile_scene::Sphere;
+
+/// The state of all particles, with the masses that a step reads. Every array has the shape [particle_count].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Particles {
+    /// Positions [m].
+    pub positions: Vec<Vec3>,
+    /// Velocities [m/s].
+    pub velocities: Vec<Vec3>,
+    /// Masses [kg], positive also for pinned particles.
+    pub masses: Vec<f32>,
+    /// Inverse masses [1/kg], 0 for pinned particles.
+    pub inverse_masses: Vec<f32>,
+}
+
+impl Particles {
+    /// The particles of a model at time 0, at rest.
+    pub fn new(model: &Model) -> Self {
+        Self {
+            positions: model.positions.clone(),
+            velocities: vec![Vec3::ZERO; model.positions.len()],
+            masses: model.masses.clone(),
+            inverse_masses: model.inverse_masses.clone(),
+        }
+    }
+}
+
+/// Means of the corners of each quad or triangle; both arrays have the shape [quad_count].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Midpoints {
+    /// Positions [m].
+    pub positions: Vec<Vec3>,
+    /// Velocities [m/s].
+    pub velocities: Vec<Vec3>,
+}
+
+/// An analytic sphere as one step meets it, for [`sample_sphere`](crate::step::sample_sphere).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ball {
+    /// Centre [m].
+    pub centre: Vec3,
+    /// Radius with the thickness of the cloth added [m].
+    pub radius: f32,
+    /// Velocity of the centre [m/s].
+    pub velocity: Vec3,
+}
+
+impl Ball {
+    /// The sphere at the end of step `step` (0 is the first): where the particles will be once they have moved.
+    pub fn at(sphere: &Sphere, step: u64, settings: &StepSettings) -> Self {
+        let (centre, velocity) = sphere.at((step + 1) as f64 * f64::from(settings.dt));
+        Self {
+            centre: centre.as_vec3(),
+            radius: sphere.radius as f32 + settings.thickness,
+            velocity: velocity.as_vec3(),
+        }
+    }
+}

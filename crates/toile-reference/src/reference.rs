@@ -1,0 +1,216 @@
+//! The life of the GPU simulation on the CPU.
+
+use crate::maps::BodyMaps;
+use crate::{Ball, Contact, Midpoints, Particles, Probe, digest, frame, step};
+use glam::Vec3;
+use toile_model::{Merge, Model, Status, StepSettings};
+use toile_scene::{Rule, Sphere};
+
+/// What the cloth collides with. The default is nothing: then no contact kernel runs.
+#[derive(Clone, Debug, Default)]
+pub struct Colliders {
+    /// Maps of a body mesh, with the thickness of the cloth in them.
+    pub maps: Option<BodyMaps>,
+    /// An analytic sphere, without thickness.
+    pub sphere: Option<Sphere>,
+}
+
+/// A simulation on the CPU, for snapshot tests and for machines without adapter. It gives the same answer everywhere.
+///
+/// ```
+/// use glam::{Vec3, vec3};
+/// use toile_model::{Csr, Model, StepSettings};
+/// use toile_reference::{Colliders, Reference};
+/// use toile_scene::{Friction, Rule};
+///
+/// let model = Model {
+///     positions: vec![vec3(0.0, 1.0, 0.0)],
+///     masses: vec![0.001],
+///     inverse_masses: vec![1000.0],
+///     links: Csr::from_rows([[]]),
+///     particle_quads: Csr::from_rows([[]]),
+///     ..Model::default()
+/// };
+/// let settings = StepSettings {
+///     dt: 0.01,
+///     steps_per_frame: 10,
+///     gravity: vec3(0.0, -10.0, 0.0),
+///     damping: 0.0,
+///     thickness: 0.001,
+///     push_speed: 0.2,
+///     contact_margin: 1e-4,
+///     reflection: 0.0,
+///     law: Friction::Coulomb,
+///     friction: 0.3,
+///     hold_stiffness: 100.0,
+///     hold_acceleration: 5.0,
+///     rule: Rule::Predictive,
+///     sweeps: 1,
+///     threshold: 0.05,
+/// };
+/// let mut reference = Reference::new(&model, &settings, Colliders::default());
+/// reference.frame();
+/// assert_eq!(reference.status().step, 10);
+/// assert!((reference.velocities()[0] - vec3(0.0, -1.0, 0.0)).length() < 1e-6);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Reference {
+    model: Model,
+    settings: StepSettings,
+    colliders: Colliders,
+    particles: Particles,
+    /// Contacts of the last step, shape [particle_count]; empty without body.
+    contacts: Vec<Contact>,
+    step: u64,
+}
+
+impl Reference {
+    /// A simulation of `model` at rest.
+    pub fn new(model: &Model, settings: &StepSettings, colliders: Colliders) -> Self {
+        let has_body = colliders.maps.is_some() || colliders.sphere.is_some();
+        let contact_count = if has_body { model.positions.len() } else { 0 };
+        Self {
+            particles: Particles::new(model),
+            contacts: vec![Contact::default(); contact_count],
+            model: model.clone(),
+            settings: settings.clone(),
+            colliders,
+            step: 0,
+        }
+    }
+
+    /// The handover: the same state in the sewn model, whose particles `merge` makes from those of this one. Contacts start
+    /// anew; the number of steps and with it the time go on.
+    pub fn sewn(self, model: &Model, settings: &StepSettings, merge: &Merge) -> Self {
+        let mut sewn = Self::new(model, settings, self.colliders);
+        frame::merge_particles(&self.particles, &merge.members, &mut sewn.particles);
+        sewn.step = self.step;
+        sewn
+    }
+
+    /// Does one step.
+    pub fn step(&mut self) {
+        let Self { model, settings, particles, .. } = self;
+        let dt = settings.dt;
+        let has_body = self.colliders.maps.is_some() || self.colliders.sphere.is_some();
+
+        let mut forces = step::spring_forces(particles, &model.links, settings);
+        if has_body {
+            step::reaction(&mut forces, particles, &self.contacts, settings);
+        }
+        step::euler(&mut particles.velocities, &forces, &particles.inverse_masses, dt);
+        step::hold_edges(particles, &model.holds, settings);
+        for _ in 0..settings.sweeps {
+            self.sweep_velocities();
+        }
+        if has_body {
+            self.collide();
+        }
+        let Self { model, settings, particles, .. } = self;
+        step::move_particles(&mut particles.positions, &particles.velocities, dt);
+        if settings.rule == Rule::Position {
+            for _ in 0..settings.sweeps {
+                for colour in &model.limit_colours {
+                    let limits = &model.limits[colour.start as usize..colour.end as usize];
+                    step::limit_position(particles, limits);
+                }
+            }
+        }
+        self.step += 1;
+    }
+
+    /// One sweep over all seams and limits, colour by colour.
+    fn sweep_velocities(&mut self) {
+        let Self { model, settings, particles, contacts, .. } = self;
+        for colour in &model.seam_colours {
+            let pairs = &model.seam_pairs[colour.start as usize..colour.end as usize];
+            step::close_seams(particles, pairs, settings.dt);
+        }
+        let contacts = (!contacts.is_empty()).then_some(contacts.as_slice());
+        for colour in &model.limit_colours {
+            let limits = &model.limits[colour.start as usize..colour.end as usize];
+            match settings.rule {
+                Rule::None | Rule::Position => {}
+                Rule::Zero => step::limit_zero(particles, limits),
+                Rule::Average => step::limit_average(particles, limits),
+                Rule::Directional => step::limit_directional(particles, limits, contacts, settings),
+                Rule::Predictive => step::limit_predictive(particles, limits, settings.dt),
+            }
+        }
+    }
+
+    fn collide(&mut self) {
+        let Midpoints { positions, velocities } =
+            step::quad_midpoints(&self.particles.positions, &self.particles.velocities, &self.model.quads);
+        let quad_probes = self.probes(&positions, &velocities);
+        let probes = self.probes(&self.particles.positions, &self.particles.velocities);
+        let responses = step::quad_responses(&Midpoints { positions, velocities }, &quad_probes, &self.settings);
+        self.contacts =
+            step::collide(&mut self.particles, &self.model.particle_quads, &probes, &responses, &self.settings);
+    }
+
+    fn probes(&self, positions: &[Vec3], velocities: &[Vec3]) -> Vec<Probe> {
+        let mut probes = match &self.colliders.maps {
+            Some(maps) => step::sample_maps(positions, velocities, maps, &self.settings),
+            None => vec![Probe::default(); positions.len()],
+        };
+        if let Some(sphere) = &self.colliders.sphere {
+            let ball = Ball::at(sphere, self.step, &self.settings);
+            step::sample_sphere(&mut probes, positions, velocities, &ball, &self.settings);
+        }
+        probes
+    }
+
+    /// Does the steps of one frame.
+    pub fn frame(&mut self) {
+        for _ in 0..self.settings.steps_per_frame {
+            self.step();
+        }
+    }
+
+    /// What the simulation reports of its state.
+    pub fn status(&self) -> Status {
+        let particles = frame::particle_status(&self.particles);
+        let limits = frame::limit_status(&self.particles.positions, &self.model.limits, self.settings.threshold);
+        Status {
+            step: self.step,
+            non_finite_count: particles.non_finite_count,
+            first_non_finite: particles.first_non_finite,
+            speed_max: particles.speed_max,
+            kinetic_energy: frame::total_energy(&particles.energy_partials),
+            elongation_max: limits.elongation_max,
+            over_long_count: limits.over_long_count,
+            seam_gap_max: frame::seam_status(&self.particles.positions, &self.model.seam_pairs),
+        }
+    }
+
+    /// Kinetic energy of all particles that are not pinned [J].
+    pub fn kinetic_energy(&self) -> f32 {
+        frame::total_energy(&frame::particle_status(&self.particles).energy_partials)
+    }
+
+    /// Positions [m], shape [particle_count].
+    pub fn positions(&self) -> &[Vec3] {
+        &self.particles.positions
+    }
+
+    /// Velocities [m/s], shape [particle_count].
+    pub fn velocities(&self) -> &[Vec3] {
+        &self.particles.velocities
+    }
+
+    /// Unit normals on the outside of the cloth, shape [particle_count].
+    pub fn normals(&self) -> Vec<Vec3> {
+        frame::particle_normals(&self.particles.positions, &self.model.quads, &self.model.particle_quads)
+    }
+
+    /// Contacts of the last step, shape [particle_count]; empty without body.
+    pub fn contacts(&self) -> &[Contact] {
+        &self.contacts
+    }
+
+    /// The state as a few rounded numbers, for snapshots that a reviewer can read.
+    pub fn digest(&self) -> String {
+        digest::digest(&self.model, &self.status(), &self.particles.positions, &self.contacts)
+    }
+}

@@ -1,0 +1,42 @@
+//! The life of a reference: the same answer every time, in words a reviewer can read.
+
+use crate::support::{Grid, settings};
+use glam::DVec3;
+use toile_model::StepSettings;
+use toile_reference::{Colliders, Reference};
+use toile_scene::{Rule, Sphere, SphereMotion};
+
+fn draped() -> Reference {
+    let sphere = Sphere { centre: DVec3::new(0.0, -0.11, 0.0), radius: 0.1, motion: SphereMotion::Still };
+    let settings = StepSettings { rule: Rule::Predictive, sweeps: 2, ..settings() };
+    let colliders = Colliders { maps: None, sphere: Some(sphere) };
+    let mut reference = Reference::new(&Grid::horizontal(16, 0.02).model(), &settings, colliders);
+    for _ in 0..20 {
+        reference.frame();
+    }
+    reference
+}
+
+#[test]
+fn two_runs_agree_to_the_bit() {
+    assert_eq!(draped().positions(), draped().positions());
+}
+
+#[test]
+fn the_digest_of_a_draped_sheet() {
+    insta::assert_snapshot!(draped().digest(), @"
+    step 200
+    particles 256
+    springs 1378
+    limits 930 in 8 colours
+    quads 225
+    non-finite 0
+    x -144 .. 142 mm
+    y -162 .. -9 mm
+    z -134 .. 140 mm
+    speed 9.77e-1 m/s
+    kinetic energy 8.59e-4 J
+    elongation 0.060, 71 over-long
+    contacts 15
+    ");
+}

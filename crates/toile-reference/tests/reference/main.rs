@@ -1,0 +1,13 @@
+//! Physics and measurements of the reference.
+
+mod contact;
+mod distance;
+mod free_fall;
+mod life;
+mod limits;
+mod maps;
+mod normals;
+mod sewing;
+mod statics;
+mod status;
+mod support;

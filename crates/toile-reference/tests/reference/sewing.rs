@@ -1,0 +1,84 @@
+//! Sewing: seams that close, edges that are held, and the handover.
+
+use crate::support::{Grid, Parts, momentum, settings};
+use glam::{Vec3, vec3};
+use toile_model::{Csr, Hold, Merge, Model, SeamPair, StepSettings};
+use toile_reference::{Colliders, Particles, Reference, frame, step};
+
+fn two_particles() -> Model {
+    let mut model =
+        Parts { positions: vec![Vec3::ZERO, vec3(0.3, 0.0, 0.4)], masses: vec![1.0, 3.0], ..Parts::default() }.model();
+    model.seam_pairs = vec![SeamPair { ends: [0, 1], closing_speed: 2.0, seam: 0 }];
+    model.seam_colours = std::iter::once(0..1).collect();
+    model
+}
+
+#[test]
+fn a_seam_closes_at_its_speed_and_stays_closed() {
+    let settings = StepSettings { gravity: Vec3::ZERO, ..settings() };
+    let mut reference = Reference::new(&two_particles(), &settings, Colliders::default());
+    for k in 1..=200 {
+        reference.step();
+        let expected = (0.5 - 2.0 * settings.dt * k as f32).max(0.0);
+        let gap = reference.status().seam_gap_max;
+        assert!((gap - expected).abs() < 1e-5, "step {k}: {gap}, not {expected}");
+    }
+    let meeting = vec3(0.3, 0.0, 0.4) * 0.75;
+    assert!(reference.positions()[0].distance(meeting) < 1e-5, "they meet at the centre of mass");
+}
+
+#[test]
+fn a_held_particle_returns_to_its_height_at_the_hold_speed() {
+    let settings = settings();
+    let mut particles = Particles::new(&two_particles());
+    particles.positions[0].y = 1.0;
+    let holds = [Hold { particle: 0, height: 0.999 }, Hold { particle: 1, height: 10.0 }];
+    particles.velocities = vec![vec3(1.0, 7.0, 2.0); 2];
+    step::hold_edges(&mut particles, &holds, &settings);
+    assert_eq!(particles.velocities[1], vec3(1.0, 0.5, 2.0));
+    assert!(particles.velocities[0].y < 0.0 && particles.velocities[0].y >= -0.5);
+    step::hold_edges(&mut particles, &[Hold { particle: 0, height: 0.9999 }], &settings);
+    step::move_particles(&mut particles.positions, &particles.velocities, settings.dt);
+    assert!((particles.positions[0].y - 0.9999).abs() < 1e-6);
+}
+
+#[test]
+fn the_handover_keeps_momentum_and_the_centre_of_mass() {
+    let open = Grid::horizontal(3, 0.1).model();
+    let mut particles = Particles::new(&open);
+    for (i, (velocity, mass)) in particles.velocities.iter_mut().zip(&mut particles.masses).enumerate() {
+        *velocity = vec3(i as f32, 1.0, -(i as f32));
+        *mass *= 1.0 + i as f32;
+    }
+    let members = Csr::from_rows([vec![0, 8], vec![1], vec![2, 3, 4], vec![5], vec![6, 7]]);
+    let masses = (0..5).map(|i| members.row(i).iter().map(|m| particles.masses[*m as usize]).sum()).collect();
+    let mut sewn = Particles {
+        positions: vec![Vec3::NAN; 5],
+        velocities: vec![Vec3::NAN; 5],
+        masses,
+        inverse_masses: vec![1.0; 5],
+    };
+    frame::merge_particles(&particles, &members, &mut sewn);
+    assert!((momentum(&sewn) - momentum(&particles)).length() < 1e-6 * momentum(&particles).length());
+    assert!((sewn.positions[1] - particles.positions[1]).length() < 1e-7);
+
+    // The middle of two particles, weighted 1 to 9.
+    let expected = (particles.positions[0] + particles.positions[8] * 9.0) / 10.0;
+    assert!((sewn.positions[0] - expected).length() < 1e-7);
+}
+
+#[test]
+fn a_sewn_reference_goes_on_where_the_open_one_stopped() {
+    let settings = StepSettings { gravity: Vec3::ZERO, ..settings() };
+    let mut open = Reference::new(&two_particles(), &settings, Colliders::default());
+    for _ in 0..200 {
+        open.step();
+    }
+    let sewn_model = Parts { positions: vec![Vec3::ZERO], masses: vec![4.0], ..Parts::default() }.model();
+    let merge = Merge { members: Csr::from_rows([[0, 1]]) };
+    let mut sewn = open.sewn(&sewn_model, &super::support::settings(), &merge);
+    assert_eq!(sewn.status().step, 200);
+    assert!(sewn.positions()[0].distance(vec3(0.3, 0.0, 0.4) * 0.75) < 1e-5);
+    sewn.step();
+    assert!(sewn.velocities()[0].y < 0.0, "the settings of the sewn model have gravity");
+}

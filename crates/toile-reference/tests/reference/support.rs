@@ -1,0 +1,261 @@
+//! Cloth, bodies and numbers that the tests share.
+
+use glam::{DVec3, Vec3};
+use std::collections::HashSet;
+use std::ops::Range;
+use toile_model::{Csr, Limit, Link, Model, Spring, SpringKind, StepSettings};
+use toile_reference::Particles;
+use toile_scene::{Friction, Mesh, Rule};
+
+/// Elongation that the limits of the test cloth allow.
+pub const THRESHOLD: f32 = 0.05;
+
+pub const GRAVITY: f32 = 9.81;
+
+pub fn settings() -> StepSettings {
+    StepSettings {
+        dt: 1.0 / 600.0,
+        steps_per_frame: 10,
+        gravity: Vec3::new(0.0, -GRAVITY, 0.0),
+        damping: 0.0,
+        thickness: 1e-3,
+        push_speed: 0.2,
+        contact_margin: 1e-4,
+        reflection: 0.0,
+        law: Friction::Coulomb,
+        friction: 0.3,
+        hold_stiffness: 100.0,
+        hold_acceleration: 5.0,
+        rule: Rule::None,
+        sweeps: 1,
+        threshold: THRESHOLD,
+    }
+}
+
+/// What a model is made of before its arrays are derived.
+#[derive(Default)]
+pub struct Parts {
+    pub positions: Vec<Vec3>,
+    pub masses: Vec<f32>,
+    pub pins: Vec<usize>,
+    pub springs: Vec<Spring>,
+    pub quads: Vec<[u32; 4]>,
+}
+
+impl Parts {
+    pub fn model(self) -> Model {
+        let count = self.positions.len();
+        let links = (0..count as u32).map(|i| {
+            self.springs
+                .iter()
+                .filter(|spring| spring.ends.contains(&i))
+                .map(|spring| Link {
+                    other: spring.ends[0] + spring.ends[1] - i,
+                    rest_length: spring.rest_length,
+                    stiffness: spring.stiffness,
+                })
+                .collect::<Vec<_>>()
+        });
+        let particle_quads = (0..count as u32).map(|i| {
+            (0..self.quads.len() as u32).filter(|quad| self.quads[*quad as usize].contains(&i)).collect::<Vec<_>>()
+        });
+        let limits = self.springs.iter().filter(|s| s.kind <= SpringKind::Shear).map(|s| Limit {
+            ends: s.ends,
+            rest_length: s.rest_length,
+            max_length: (1.0 + THRESHOLD) * s.rest_length,
+        });
+        let (limits, limit_colours) = coloured(limits.collect(), |limit| limit.ends);
+        Model {
+            links: Csr::from_rows(links),
+            particle_quads: Csr::from_rows(particle_quads),
+            inverse_masses: (0..count)
+                .map(|i| if self.pins.contains(&i) { 0.0 } else { 1.0 / self.masses[i] })
+                .collect(),
+            positions: self.positions,
+            masses: self.masses,
+            springs: self.springs,
+            quads: self.quads,
+            limits,
+            limit_colours,
+            ..Model::default()
+        }
+    }
+}
+
+/// Items sorted by colour so that no two of a colour share an end.
+pub fn coloured<T: Copy>(items: Vec<T>, ends: impl Fn(&T) -> [u32; 2]) -> (Vec<T>, Vec<Range<u32>>) {
+    let mut colours: Vec<(HashSet<u32>, Vec<T>)> = Vec::new();
+    for item in items {
+        let free = colours.iter_mut().find(|(used, _)| ends(&item).iter().all(|end| !used.contains(end)));
+        let colour = match free {
+            Some(colour) => colour,
+            None => {
+                colours.push(Default::default());
+                colours.last_mut().unwrap()
+            }
+        };
+        colour.0.extend(ends(&item));
+        colour.1.push(item);
+    }
+    let mut sorted = Vec::new();
+    let mut ranges = Vec::new();
+    for (_, members) in colours {
+        let start = sorted.len() as u32;
+        sorted.extend(members);
+        ranges.push(start..sorted.len() as u32);
+    }
+    (sorted, ranges)
+}
+
+/// A square grid in the plane of `right` and `down`, with uniform masses and stiffnesses of structural, shear and bend springs.
+pub struct Grid {
+    pub columns: u32,
+    pub rows: u32,
+    pub spacing: f32,
+    pub corner: Vec3,
+    pub right: Vec3,
+    pub down: Vec3,
+    pub mass: f32,
+    pub stiffnesses: [f32; 3],
+    pub pins: Vec<usize>,
+}
+
+impl Grid {
+    /// A horizontal sheet of 0.2 kg/m² around the origin, at height 0, its outside up.
+    pub fn horizontal(count: u32, spacing: f32) -> Self {
+        let half = 0.5 * spacing * (count - 1) as f32;
+        Self {
+            columns: count,
+            rows: count,
+            spacing,
+            corner: Vec3::new(-half, 0.0, half),
+            right: Vec3::X,
+            down: Vec3::NEG_Z,
+            mass: 0.2 * spacing * spacing,
+            stiffnesses: [5.0, 2.5, 0.5],
+            pins: Vec::new(),
+        }
+    }
+
+    pub fn model(self) -> Model {
+        let index = |column: u32, row: u32| row * self.columns + column;
+        let mut parts = Parts { pins: self.pins, ..Parts::default() };
+        for row in 0..self.rows {
+            for column in 0..self.columns {
+                let [x, y] = [column as f32 * self.spacing, row as f32 * self.spacing];
+                parts.positions.push(self.corner + self.right * x + self.down * y);
+                parts.masses.push(self.mass);
+            }
+        }
+        let roles = [
+            (SpringKind::Structural, self.stiffnesses[0], vec![(1, 0), (0, 1)]),
+            (SpringKind::Shear, self.stiffnesses[1], vec![(1, 1), (-1, 1)]),
+            (SpringKind::Bend, self.stiffnesses[2], vec![(2, 0), (0, 2)]),
+        ];
+        for (kind, stiffness, offsets) in roles {
+            for (right, down) in offsets {
+                for row in 0..self.rows.saturating_sub(down) {
+                    for column in 0..self.columns {
+                        let other = i64::from(column) + right;
+                        if stiffness > 0.0 && (0..i64::from(self.columns)).contains(&other) {
+                            let ends = [index(column, row), index(other as u32, row + down)];
+                            let cells = ((right * right) as f32 + (down * down) as f32).sqrt();
+                            parts.springs.push(Spring { ends, rest_length: self.spacing * cells, stiffness, kind });
+                        }
+                    }
+                }
+            }
+        }
+        for row in 1..self.rows {
+            for column in 1..self.columns {
+                parts.quads.push([
+                    index(column - 1, row - 1),
+                    index(column, row - 1),
+                    index(column, row),
+                    index(column - 1, row),
+                ]);
+            }
+        }
+        parts.model()
+    }
+}
+
+/// Sum of m·v in f64 [kg m/s].
+pub fn momentum(particles: &Particles) -> DVec3 {
+    particles.velocities.iter().zip(&particles.masses).map(|(v, m)| v.as_dvec3() * f64::from(*m)).sum()
+}
+
+/// Sum of m·|v| in f64 [kg m/s]: what a rounding error of the momentum is measured against.
+pub fn momentum_scale(particles: &Particles) -> f64 {
+    particles.velocities.iter().zip(&particles.masses).map(|(v, m)| v.as_dvec3().length() * f64::from(*m)).sum()
+}
+
+/// Centre of mass of equal masses in f64 [m].
+pub fn centre(positions: &[Vec3]) -> DVec3 {
+    positions.iter().map(|p| p.as_dvec3()).sum::<DVec3>() / positions.len() as f64
+}
+
+/// Seeded numbers in 0..1 (splitmix64).
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn number(&mut self) -> f32 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 40) as f32 / (1u64 << 24) as f32
+    }
+
+    pub fn vector(&mut self) -> Vec3 {
+        Vec3::new(self.number() - 0.5, self.number() - 0.5, self.number() - 0.5) * 2.0
+    }
+
+    pub fn index(&mut self, count: usize) -> u32 {
+        ((self.number() * count as f32) as usize).min(count - 1) as u32
+    }
+}
+
+/// A sphere of `2·count` meridians and `count` parallels.
+pub fn uv_sphere(centre: Vec3, radius: f32, count: u32) -> Mesh {
+    let mut mesh = Mesh::default();
+    let columns = 2 * count;
+    for row in 0..=count {
+        let polar = std::f64::consts::PI * f64::from(row) / f64::from(count);
+        for column in 0..=columns {
+            // The last column stands exactly on the first, so that vertices at one place are equal.
+            let around = std::f64::consts::TAU * f64::from(column % columns) / f64::from(columns);
+            let ring = if row == 0 || row == count { 0.0 } else { polar.sin() };
+            let normal = DVec3::new(ring * around.cos(), polar.cos(), ring * around.sin());
+            mesh.normals.push(normal.as_vec3());
+            mesh.positions.push(centre + normal.as_vec3() * radius);
+        }
+    }
+    for row in 0..count {
+        for column in 0..columns {
+            let a = row * (columns + 1) + column;
+            let [b, c, d] = [a + 1, a + columns + 1, a + columns + 2];
+            mesh.triangles.extend([[a, b, c], [b, d, c]]);
+        }
+    }
+    mesh
+}
+
+/// An axis-aligned box with flat faces: four vertices for each of them.
+pub fn box_mesh(low: Vec3, high: Vec3) -> Mesh {
+    let mut mesh = Mesh::default();
+    let [centre, half] = [(low + high) * 0.5, (high - low) * 0.5];
+    for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
+        for normal in [axis, -axis] {
+            let right = Vec3::new(axis.z, axis.x, axis.y);
+            let up = normal.cross(right);
+            let first = mesh.positions.len() as u32;
+            for (u, v) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)] {
+                mesh.positions.push(centre + (normal + right * u + up * v) * half);
+                mesh.normals.push(normal);
+            }
+            mesh.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+        }
+    }
+    mesh
+}

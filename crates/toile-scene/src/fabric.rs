@@ -1,0 +1,77 @@
+//! What the cloth is made of.
+
+/// What the cloth is made of.
+///
+/// The stiffnesses are those of the springs (D eq. 2). On a square grid the stiffness of a structural spring [N/m] is the
+/// membrane stiffness of the cloth, whatever the spacing. Springs only carry what the limits do not: elongation is held by
+/// the velocity modification, so soft springs do not mean stretchy cloth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fabric {
+    /// Name shown in metrics.
+    pub name: String,
+    /// Mass per area [kg/m²], positive.
+    pub areal_density: f64,
+    /// Stiffness of a structural spring [N/m].
+    pub structural_stiffness: f64,
+    /// Stiffness of a shear spring [N/m].
+    pub shear_stiffness: f64,
+    /// Stiffness of a bend spring [N/m] (the papers' flexion).
+    pub bend_stiffness: f64,
+    /// Viscous damping rate [1/s]: the damping coefficient of D §3 per particle mass.
+    pub damping: f64,
+    /// Distance that the cloth keeps from a body [m].
+    pub thickness: f64,
+    /// Coefficient of Coulomb friction against a body [1].
+    pub friction: f64,
+    /// Largest elongation that the velocity modification allows [1], for example 0.05. D §4.3: 1 % to 15 %.
+    pub threshold: f64,
+}
+
+impl Fabric {
+    /// Names that [`Fabric::preset`] knows, from the softest to the stiffest to bend.
+    pub const PRESETS: [&str; 5] = ["silk", "jersey", "cotton", "wool", "denim"];
+
+    /// A fabric by name: weights as such cloth is sold, stiffnesses by the look of the drape (springs are soft on purpose,
+    /// limits hold the stretch).
+    pub fn preset(name: &str) -> Option<Self> {
+        let preset = |areal_density: f64, stiffness: [f64; 3], rest: [f64; 4]| Self {
+            name: name.into(),
+            areal_density,
+            structural_stiffness: stiffness[0],
+            shear_stiffness: stiffness[1],
+            bend_stiffness: stiffness[2],
+            damping: rest[0],
+            thickness: rest[1],
+            friction: rest[2],
+            threshold: rest[3],
+        };
+        Some(match name {
+            "silk" => preset(0.12, [20.0, 6.0, 0.5], [1.0, 0.003, 0.3, 0.05]),
+            "jersey" => preset(0.2, [25.0, 7.5, 1.0], [1.5, 0.004, 0.4, 0.1]),
+            "cotton" => preset(0.15, [30.0, 12.0, 3.0], [2.0, 0.004, 0.4, 0.05]),
+            "wool" => preset(0.25, [40.0, 16.0, 6.0], [2.0, 0.005, 0.45, 0.06]),
+            "denim" => preset(0.4, [60.0, 30.0, 15.0], [3.0, 0.005, 0.5, 0.03]),
+            _ => return None,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Fabric;
+
+    #[test]
+    fn every_preset_exists_and_no_other() {
+        for name in Fabric::PRESETS {
+            assert_eq!(Fabric::preset(name).expect("a preset").name, name);
+        }
+        assert_eq!(Fabric::preset("tweed"), None);
+    }
+
+    #[test]
+    fn presets_are_listed_from_soft_to_stiff() {
+        let bend: Vec<f64> =
+            Fabric::PRESETS.iter().map(|name| Fabric::preset(name).expect("a preset").bend_stiffness).collect();
+        assert!(bend.is_sorted_by(|a, b| a < b), "{bend:?}");
+    }
+}

@@ -1,0 +1,41 @@
+//! What is simulated: panels, seams, fabrics, garments, sheets, bodies and settings.
+//!
+//! Plain data in SI units (metre, kilogram, second, newton), y up. Flat patterns and placements are f64: they are read
+//! once and everything later is derived from them. Nothing here computes a step.
+
+mod body;
+mod fabric;
+mod garment;
+mod mesh;
+mod outline;
+mod settings;
+mod sheet;
+
+pub use body::{Body, Sphere, SphereMotion};
+pub use fabric::Fabric;
+pub use garment::{Curve, Edge, EdgeRef, Garment, Panel, Placement, Seam};
+pub use mesh::Mesh;
+pub use settings::{Friction, Rule, Settings, VelocityModification};
+pub use sheet::{Pin, Sheet};
+
+/// Everything a run needs: the cloth, what it collides with, and how it is simulated.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// Name shown in pictures and metrics.
+    pub name: String,
+    /// The cloth. Garments are dressed in this order: each lies over the ones before it.
+    pub cloths: Vec<Cloth>,
+    /// What the cloth collides with. Empty: no map and no contact kernel exists.
+    pub bodies: Vec<Body>,
+    /// How it is simulated.
+    pub settings: Settings,
+}
+
+/// A piece of cloth.
+#[derive(Clone, Debug)]
+pub enum Cloth {
+    /// A rectangular sheet that starts where it is placed.
+    Sheet(Sheet),
+    /// Panels that are sewn first.
+    Garment(Garment),
+}

@@ -1,0 +1,25 @@
+//! What a caller cannot foresee.
+
+use thiserror::Error;
+
+/// What a caller cannot foresee.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The device refuses or is lost.
+    #[error(transparent)]
+    Gpu(#[from] toile_gpu::GpuError),
+    /// The cloth cannot be meshed.
+    #[error(transparent)]
+    Model(#[from] toile_model::ModelError),
+    /// The state is not finite.
+    #[error("the simulation diverged: {count} particles are not finite at step {step}, the first is particle {particle}; use the default rule, softer springs or a smaller safety factor")]
+    Diverged {
+        /// Step at which it was seen.
+        step: u64,
+        /// First particle by index.
+        particle: u32,
+        /// Number of particles.
+        count: u32,
+    },
+}

@@ -1,0 +1,28 @@
+//! What a renderer draws.
+
+/// What a renderer draws: buffers on the device that hold the state at the end of the last recorded frame.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// Positions [m], vec4 each, xyz used; usage `VERTEX | STORAGE | COPY_SRC`.
+    pub positions: wgpu::Buffer,
+    /// Unit normals out of the cloth, vec4 each, xyz used; usage `VERTEX | STORAGE | COPY_SRC`.
+    pub normals: wgpu::Buffer,
+    /// Particle indices (u32), three per triangle, counter-clockwise seen from outside; usage `INDEX`.
+    pub indices: wgpu::Buffer,
+    /// Number of particles.
+    pub particle_count: u32,
+    /// Number of indices.
+    pub index_count: u32,
+}
+
+impl From<&Frame> for toile_gpu::Surface {
+    /// The cloth as something that a later cloth collides with.
+    fn from(frame: &Frame) -> Self {
+        Self {
+            positions: frame.positions.clone(),
+            normals: frame.normals.clone(),
+            indices: frame.indices.clone(),
+            index_count: frame.index_count,
+        }
+    }
+}

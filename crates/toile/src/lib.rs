@@ -1,0 +1,16 @@
+//! Cloth simulation on the GPU: every step runs as WGSL compute passes.
+//!
+//! The host gives a device, a queue and a command encoder; [`Simulation`] records into the encoder and gives back buffers of
+//! positions, normals and indices. It never submits, never waits and never maps a buffer in the frame loop.
+
+mod error;
+mod frame;
+mod simulation;
+
+pub use error::Error;
+pub use frame::Frame;
+pub use simulation::{Colliders, Simulation};
+pub use toile_files as files;
+pub use toile_gpu as gpu;
+pub use toile_model as model;
+pub use toile_scene as scene;

@@ -1,0 +1,144 @@
+//! One cloth, simulated on the caller's device.
+
+use crate::{Error, Frame};
+use std::sync::Arc;
+use toile_gpu::{BodyMaps, Plan, Solver, Timer};
+use toile_model::{Merge, Model, Status, StepSettings};
+use toile_scene::Sphere;
+use wgpu::util::DeviceExt;
+
+/// What a cloth collides with.
+#[derive(Clone, Debug, Default)]
+pub struct Colliders {
+    /// Mesh bodies and inner garments, as maps.
+    pub maps: Option<Arc<BodyMaps>>,
+    /// An analytic sphere.
+    pub sphere: Option<Sphere>,
+}
+
+/// One cloth, simulated on the caller's device.
+///
+/// ```no_run
+/// # fn host(device: &wgpu::Device, queue: &wgpu::Queue, sheet: &toile::scene::Sheet, settings: &toile::scene::Settings)
+/// # -> Result<(), toile::Error> {
+/// use toile::model::{Model, StepSettings};
+///
+/// let model = Model::from_sheet(sheet, settings)?;
+/// let step = StepSettings::new(settings, &model);
+/// let mut simulation = toile::Simulation::new(device, &model, &step, Default::default())?;
+/// for _ in 0..60 {
+///     let mut encoder = device.create_command_encoder(&Default::default());
+///     simulation.record(device, &mut encoder);
+///     // Draw simulation.frame() with the same encoder, then:
+///     queue.submit([encoder.finish()]);
+///     simulation.status()?;
+/// }
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug)]
+pub struct Simulation {
+    solver: Solver,
+    colliders: Colliders,
+    frame: Frame,
+}
+
+impl Simulation {
+    /// A cloth at the start of its model.
+    ///
+    /// # Errors
+    /// [`Error::Gpu`] when the model does not fit the device.
+    pub fn new(
+        device: &wgpu::Device,
+        model: &Model,
+        settings: &StepSettings,
+        colliders: Colliders,
+    ) -> Result<Self, Error> {
+        let solver = Solver::new(
+            device,
+            model,
+            settings,
+            toile_gpu::Colliders { maps: colliders.maps.as_deref(), sphere: colliders.sphere },
+        )?;
+        let triangles = model.triangles();
+        let indices = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("cloth indices"),
+            contents: bytemuck::cast_slice(&triangles),
+            usage: wgpu::BufferUsages::INDEX | wgpu::BufferUsages::COPY_SRC,
+        });
+        let frame = Frame {
+            positions: solver.positions().clone(),
+            normals: solver.normals().clone(),
+            indices,
+            particle_count: model.particle_count(),
+            index_count: 3 * triangles.len() as u32,
+        };
+        Ok(Self { solver, colliders, frame })
+    }
+
+    /// Records one frame into the caller's encoder: its steps, then normals and status.
+    pub fn record(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder) {
+        self.solver.record_frame(device, encoder);
+    }
+
+    /// Records the handover to the sewn model: joined particles become one, with their momentum; then its normals and status.
+    ///
+    /// # Errors
+    /// [`Error::Gpu`] when the sewn model does not fit the device.
+    pub fn sewn(
+        &self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        model: &Model,
+        merge: &Merge,
+        settings: &StepSettings,
+    ) -> Result<Self, Error> {
+        let mut sewn = Self::new(device, model, settings, self.colliders.clone())?;
+        sewn.solver.record_merge(device, encoder, &self.solver, merge);
+        sewn.solver.record_outputs(encoder);
+        Ok(sewn)
+    }
+
+    /// Buffers for a renderer.
+    pub fn frame(&self) -> &Frame {
+        &self.frame
+    }
+
+    /// The newest status that has arrived, without waiting; `None` before the first frame is done.
+    ///
+    /// # Errors
+    /// [`Error::Diverged`] when a particle is not finite.
+    pub fn status(&mut self) -> Result<Option<Status>, Error> {
+        let status = self.solver.status();
+        if let Some(Status { step, non_finite_count: count, first_non_finite: Some(particle), .. }) = status {
+            return Err(Error::Diverged { step, particle, count });
+        }
+        Ok(status)
+    }
+
+    /// Records one step with a timestamp around each pass, for measuring only.
+    pub fn record_timed_step(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, timer: &mut Timer) {
+        self.solver.record_timed_step(device, encoder, timer);
+    }
+
+    /// The passes of a step and of a frame.
+    pub fn plan(&self) -> &Plan {
+        self.solver.plan()
+    }
+
+    /// What each particle touched in the last step: normal and 1 or 0 (vec4), velocity of the body (vec4); `None` without a body.
+    pub fn contacts(&self) -> Option<&wgpu::Buffer> {
+        self.solver.contacts()
+    }
+
+    /// Steps recorded so far.
+    pub fn step(&self) -> u64 {
+        self.solver.step()
+    }
+
+    /// Bytes on the device: buffers, indices, and the maps of the bodies.
+    pub fn bytes(&self) -> u64 {
+        let maps = self.colliders.maps.as_ref().map_or(0, |maps| maps.bytes());
+        self.solver.bytes() + self.frame.indices.size() + maps
+    }
+}

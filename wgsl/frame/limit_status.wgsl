@@ -1,0 +1,25 @@
+// The largest elongation, and how many limits are exceeded.
+#import shared/item
+#import shared/status
+#import shared/limit
+
+@group(0) @binding(2) var<storage, read> limits: array<Limit>;
+@group(0) @binding(3) var<storage, read> positions: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read_write> status: Status;
+
+@compute @workgroup_size(64)
+fn limit_status(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
+    let i = item_index(id, groups);
+    if i >= arrayLength(&limits) {
+        return;
+    }
+    let limit = limits[i];
+    let current_length = length(positions[limit.second].xyz - positions[limit.first].xyz);
+    let elongation = current_length / limit.rest_length - 1.0;
+    if elongation > 0.0 {
+        atomicMax(&status.elongation_max, bitcast<u32>(elongation));
+    }
+    if current_length > limit.max_length {
+        atomicAdd(&status.over_long_count, 1u);
+    }
+}

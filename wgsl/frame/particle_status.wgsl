@@ -1,0 +1,46 @@
+// Counts particles that are not finite, finds the largest speed and sums the kinetic energy of each workgroup.
+#import shared/item
+#import shared/step_params
+#import shared/status
+#import shared/reduction
+
+@group(0) @binding(2) var<storage, read> positions: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> velocities: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read_write> status: Status;
+@group(0) @binding(5) var<storage, read_write> energy_partials: array<f32>;
+
+fn is_finite(value: f32) -> bool {
+    return (bitcast<u32>(value) & 0x7f800000u) != 0x7f800000u;
+}
+
+@compute @workgroup_size(64)
+fn particle_status(
+    @builtin(global_invocation_id) id: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let i = item_index(id, groups);
+    var energy = 0.0;
+    if i < step.particle_count {
+        let position = positions[i];
+        let velocity = velocities[i];
+        let finite = is_finite(position.x) && is_finite(position.y) && is_finite(position.z)
+            && is_finite(velocity.x) && is_finite(velocity.y) && is_finite(velocity.z);
+        if finite {
+            let speed_squared = dot(velocity.xyz, velocity.xyz);
+            atomicMax(&status.speed_max, bitcast<u32>(sqrt(speed_squared)));
+            if position.w > 0.0 {
+                energy = 0.5 * (velocity.w * speed_squared);
+            }
+        } else {
+            atomicAdd(&status.non_finite_count, 1u);
+            atomicMax(&status.first_non_finite, 0xffffffffu - i);
+        }
+    }
+    let sum = workgroup_sum(local, energy);
+    let partial = group.x + group.y * groups.x;
+    if local == 0u && partial < arrayLength(&energy_partials) {
+        energy_partials[partial] = sum;
+    }
+}

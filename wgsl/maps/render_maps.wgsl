@@ -1,0 +1,37 @@
+// Draws the surfaces of the bodies into the depth and normal maps, seen by the front or the back camera. W §4.1-4.2.
+#import shared/map_frame
+
+const FRONT: u32 = 0u;
+
+struct Side {
+    side: u32,          // 0 front, 1 back
+    thickness: f32,     // offset of the surface along its normals [m]
+}
+
+struct Texel {
+    @builtin(position) position: vec4<f32>,
+    @location(0) normal: vec3<f32>,
+}
+
+@group(0) @binding(0) var<uniform> map_frame: MapFrame;
+@group(0) @binding(1) var<uniform> camera: Side;
+
+@vertex
+fn draw_surface(@location(0) position: vec3<f32>, @location(1) normal: vec3<f32>) -> Texel {
+    let surface = position + normal * camera.thickness;
+    let x = 2.0 * ((surface.x - map_frame.origin_x) / (f32(map_frame.columns) * map_frame.texel)) - 1.0;
+    let y = 1.0 - 2.0 * ((map_frame.origin_y - surface.y) / (f32(map_frame.rows) * map_frame.texel));
+    var depth = (map_frame.z_front - surface.z) / (map_frame.z_front - map_frame.z_back);
+    if camera.side != FRONT {
+        depth = 1.0 - depth;
+    }
+    return Texel(vec4<f32>(x, y, depth, 1.0), normal);
+}
+
+@fragment
+fn write_normal(texel: Texel) -> @location(0) vec4<f32> {
+    // An interpolated normal may lean away from the camera at the silhouette; the surface that the camera sees does not.
+    var normal = texel.normal;
+    normal.z = select(-abs(normal.z), abs(normal.z), camera.side == FRONT);
+    return vec4<f32>(normal / length(normal), 0.0);
+}

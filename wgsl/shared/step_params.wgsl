@@ -1,0 +1,22 @@
+// The numbers of one step, the same for every particle.
+struct StepParams {
+    gravity: vec3<f32>,         // [m/s²]
+    dt: f32,                    // [s]
+    damping: f32,               // viscous damping rate [1/s]
+    push_speed: f32,            // largest speed on the way out of a body [m/s]
+    contact_margin: f32,        // [m]
+    reflection: f32,            // C_refl of W eq. 15
+    friction_law: u32,          // 0 Coulomb, 1 the papers'
+    friction: f32,              // Coulomb's coefficient
+    velocity_kept: f32,         // C_fric of W eq. 15
+    force_removed: f32,         // C_fric of W eq. 16
+    hold_stiffness: f32,        // acceleration of a held edge per metre from its height [1/s²]
+    hold_acceleration: f32,     // its largest acceleration [m/s²]
+    recovery_speed: f32,        // fastest shortening of a spring that is over-long already [m/s]
+    particle_count: u32,
+    quad_count: u32,
+}
+
+const COULOMB: u32 = 0u;
+
+@group(0) @binding(0) var<uniform> step: StepParams;
