@@ -1,43 +1,37 @@
-// How a point answers a collision. W §5, eq. 15.
+// How a point answers a surface. W §5, eq. 15.
 #import shared/step_params
 #import shared/probe
 
-struct Response {
-    change: vec3<f32>,      // of the velocity [m/s]
-    touching: f32,            // 1 in contact, 0 not
-    push: vec3<f32>,        // of the position, the way out of the body [m]
-    padding: f32,
+// Whether a point is in contact with its probe at the end of the coming move.
+fn touches(velocity: vec3<f32>, probe: Probe) -> bool {
+    let approach = dot(velocity - probe.velocity, probe.normal);
+    return probe.hit > 0.0 && probe.distance + approach * step.dt < step.contact_margin;
 }
 
-fn respond(velocity: vec3<f32>, probe: Probe) -> Response {
-    if !(probe.hit > 0.0) {
-        return Response();
+// By how much the normal speed of a point must grow so that the coming move does not enter the surface.
+fn missing_speed(velocity: vec3<f32>, probe: Probe) -> f32 {
+    let approach = dot(velocity - probe.velocity, probe.normal);
+    let wanted = min(-probe.distance / step.dt, 0.0);
+    if approach < wanted {
+        return max(wanted, -(step.reflection * approach)) - approach;
     }
-    let normal = probe.normal;
+    return 0.0;
+}
+
+// Change of velocity when the normal speed of a point grows by so much, with the friction that goes with it.
+fn change_by(gain: f32, velocity: vec3<f32>, probe: Probe) -> vec3<f32> {
     let relative = velocity - probe.velocity;
-    let normal_speed = dot(relative, normal);
-    if !(probe.distance + normal_speed * step.dt < step.contact_margin) {
-        return Response();
-    }
-    // The way out moves the particle but gives it no velocity, so that it does not bounce off.
-    let push = normal * min(max(-probe.distance, 0.0), step.push_speed * step.dt);
-    // The fastest approach that does not enter within this step.
-    let wanted_speed = min(-probe.distance / step.dt, 0.0);
-    if !(normal_speed < wanted_speed) {
-        return Response(vec3<f32>(0.0), 1.0, push, 0.0);
-    }
-    let new_normal_speed = max(wanted_speed, -(step.reflection * normal_speed));
-    let tangential = relative - normal * normal_speed;
-    var new_tangential = vec3<f32>(0.0);
+    let approach = dot(relative, probe.normal);
+    let tangential = relative - probe.normal * approach;
+    var slip = vec3<f32>(0.0);
     if step.friction_law == COULOMB {
         let speed = length(tangential);
-        let stopped = step.friction * (new_normal_speed - normal_speed);
+        let stopped = step.friction * gain;
         if speed > stopped {
-            new_tangential = tangential * ((speed - stopped) / speed);
+            slip = tangential * ((speed - stopped) / speed);
         }
     } else {
-        new_tangential = tangential * step.velocity_kept;
+        slip = tangential * step.velocity_kept;
     }
-    let change = (new_tangential + normal * new_normal_speed) - relative;
-    return Response(change, 1.0, push, 0.0);
+    return (slip + probe.normal * (approach + gain)) - relative;
 }

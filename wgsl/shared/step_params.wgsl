@@ -10,9 +10,8 @@ struct StepParams {
     friction: f32,              // Coulomb's coefficient
     velocity_kept: f32,         // C_fric of W eq. 15
     force_removed: f32,         // C_fric of W eq. 16
-    hold_stiffness: f32,        // acceleration of a held edge per metre from its height [1/s²]
-    hold_acceleration: f32,     // its largest acceleration [m/s²]
-    recovery_speed: f32,        // fastest shortening of a spring that is over-long already [m/s]
+    hold_rate: f32,             // speed of a held edge towards its height, per metre from it [1/s]
+    hold_speed: f32,            // its largest speed [m/s]
     particle_count: u32,
     quad_count: u32,
 }

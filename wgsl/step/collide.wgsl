@@ -1,16 +1,21 @@
-// Each particle takes its own response and those of its quads, averaged over those that collided. D §6. Its own
-// answer has the last word.
+// Each particle answers its own contact and those of its quads, averaged over those that ask something of it; its own contact
+// has the last word. A midpoint that would enter asks each corner for what that corner itself does towards the body, and for
+// no more than would stop the midpoint alone: contacts bring no energy in. D §6, W eq. 15.
 #import shared/item
 #import shared/response
 #import shared/contact
+#import shared/midpoint
 
-@group(0) @binding(2) var<storage, read> probes: array<Probe>;
-@group(0) @binding(3) var<storage, read> responses: array<Response>;
+@group(0) @binding(2) var<storage, read> midpoints: array<Midpoint>;
+@group(0) @binding(3) var<storage, read> probes: array<Probe>;
 @group(0) @binding(4) var<storage, read> particle_quad_offsets: array<u32>;
 @group(0) @binding(5) var<storage, read> particle_quads: array<u32>;
 @group(0) @binding(6) var<storage, read_write> positions: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read_write> velocities: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> contacts: array<Contact>;
+
+// Corners of a quad: the share of a midpoint's motion that one corner can have alone.
+const CORNER_COUNT: f32 = 4.0;
 
 @compute @workgroup_size(64)
 fn collide(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
@@ -21,34 +26,50 @@ fn collide(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups
     let position = positions[i];
     let velocity = velocities[i];
     let probe = probes[i];
-    let own = respond(velocity.xyz, probe);
-    var change = vec3<f32>(0.0);
-    var push = vec3<f32>(0.0);
+    let touching = touches(velocity.xyz, probe);
+    var sum = vec3<f32>(0.0);
     var count = 0.0;
-    var contact = Contact();
-    if own.touching > 0.0 {
-        change = own.change;
-        push = own.push;
-        count = 1.0;
-        contact = Contact(probe.normal, 1.0, probe.velocity, 0.0);
-    }
-    let end = particle_quad_offsets[i + 1u];
-    for (var k = particle_quad_offsets[i]; k < end; k++) {
-        let response = responses[particle_quads[k]];
-        if response.touching > 0.0 {
-            change = change + response.change;
-            push = push + response.push;
+    if touching {
+        let gain = missing_speed(velocity.xyz, probe);
+        if gain > 0.0 {
+            sum = sum + change_by(gain, velocity.xyz, probe);
             count = count + 1.0;
         }
     }
-    contacts[i] = contact;
-    if count > 0.0 && position.w > 0.0 {
-        var averaged = velocity.xyz + change / count;
-        if own.touching > 0.0 {
-            // The mean with its quads may still lead the particle into the body.
-            averaged = averaged + respond(averaged, probe).change;
+    let end = particle_quad_offsets[i + 1u];
+    for (var k = particle_quad_offsets[i]; k < end; k++) {
+        let quad = particle_quads[k];
+        let quad_probe = probes[step.particle_count + quad];
+        let middle = midpoints[quad].velocity;
+        if touches(middle, quad_probe) {
+            let asked = CORNER_COUNT * missing_speed(middle, quad_probe);
+            let gain = min(missing_speed(velocity.xyz, quad_probe), asked);
+            if gain > 0.0 {
+                sum = sum + change_by(gain, velocity.xyz, quad_probe);
+                count = count + 1.0;
+            }
         }
-        velocities[i] = vec4<f32>(averaged, velocity.w);
-        positions[i] = vec4<f32>(position.xyz + push / count, position.w);
     }
+    var contact = Contact();
+    if touching {
+        contact = Contact(probe.normal, 1.0, probe.velocity, 0.0);
+    }
+    contacts[i] = contact;
+    if !(position.w > 0.0) {
+        return;
+    }
+    var answered = velocity.xyz;
+    if count > 0.0 {
+        answered = answered + sum / count;
+    }
+    if touching {
+        let gain = missing_speed(answered, probe);
+        if gain > 0.0 {
+            answered = answered + change_by(gain, answered, probe);
+        }
+        // The way out moves the particle but gives it no velocity, so that it does not bounce off.
+        let depth = max(-probe.distance, 0.0);
+        positions[i] = vec4<f32>(position.xyz + probe.normal * min(depth, step.push_speed * step.dt), position.w);
+    }
+    velocities[i] = vec4<f32>(answered, velocity.w);
 }

@@ -1,29 +1,36 @@
-// Labelled edges (waistbands, collars, armholes) are drawn to their height while the garment is sewn, weaker than seams and
-// limits are.
-#import shared/item
+// The edges of one label (a waistband, a collar, an armhole) keep their mean height while the garment is sewn, so that it does
+// not slide away; each of their particles stays free to go where its seam wants it. One workgroup per label.
 #import shared/step_params
+#import shared/reduction
 
 struct Hold {
-    particle: u32,
+    first: u32,
+    count: u32,
     height: f32,    // [m]
 }
 
 @group(0) @binding(2) var<storage, read> positions: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read> holds: array<Hold>;
-@group(0) @binding(4) var<storage, read_write> velocities: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> held_particles: array<u32>;
+@group(0) @binding(5) var<storage, read_write> velocities: array<vec4<f32>>;
 
 @compute @workgroup_size(64)
-fn hold_edges(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
-    let i = item_index(id, groups);
-    if i >= arrayLength(&holds) {
-        return;
+fn hold_edges(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let hold = holds[group.x];
+    var height = 0.0;
+    var rise = 0.0;
+    for (var k = local; k < hold.count; k += 64u) {
+        let particle = held_particles[hold.first + k];
+        height = height + positions[particle].y;
+        rise = rise + velocities[particle].y;
     }
-    let hold = holds[i];
-    let position = positions[hold.particle];
-    if !(position.w > 0.0) {
-        return;
+    let height_sum = workgroup_sum(local, height);
+    let rise_sum = workgroup_sum(local, rise);
+    let wanted = step.hold_rate * (hold.height - height_sum / f32(hold.count));
+    let speed = min(max(wanted, -step.hold_speed), step.hold_speed);
+    let change = speed - rise_sum / f32(hold.count);
+    for (var k = local; k < hold.count; k += 64u) {
+        let particle = held_particles[hold.first + k];
+        velocities[particle].y = velocities[particle].y + change;
     }
-    let wanted = step.hold_stiffness * (hold.height - position.y);
-    let acceleration = min(max(wanted, -step.hold_acceleration), step.hold_acceleration);
-    velocities[hold.particle].y = velocities[hold.particle].y + acceleration * step.dt;
 }

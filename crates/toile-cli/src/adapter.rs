@@ -4,8 +4,7 @@ use crate::args::Place;
 use anyhow::{Context, Result, bail};
 
 /// The one line to run where there is no adapter.
-pub const INSTALL_HINT: &str =
-    "on Debian or Ubuntu `apt-get install -y mesa-vulkan-drivers libvulkan1` brings a Vulkan adapter that works on the CPU; \
+pub const INSTALL_HINT: &str = "on Debian or Ubuntu `apt-get install -y mesa-vulkan-drivers libvulkan1` brings a Vulkan adapter that works on the CPU; \
      `--backend reference` works without any";
 
 /// A device with its queue and the name of its adapter.
@@ -18,10 +17,13 @@ pub struct Gpu {
     pub name: String,
 }
 
-/// All adapters that wgpu finds.
+/// All adapters that wgpu finds. Not those of GL: it cannot run the kernels.
 pub fn all() -> Vec<wgpu::Adapter> {
-    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-    pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()))
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+        backends: wgpu::Backends::PRIMARY,
+        ..wgpu::InstanceDescriptor::new_without_display_handle()
+    });
+    pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY))
 }
 
 /// Opens the adapter that the user named, or the most capable one.
@@ -35,10 +37,9 @@ pub fn open(place: &Place) -> Result<Gpu> {
     let index = match &place.adapter {
         Some(wanted) => {
             let wanted_lower = wanted.to_lowercase();
-            names
-                .iter()
-                .position(|name| name.to_lowercase().contains(&wanted_lower))
-                .with_context(|| format!("no adapter is named {wanted}; there are: {}", names.join(", ")))?
+            names.iter().position(|name| name.to_lowercase().contains(&wanted_lower)).with_context(|| {
+                format!("--adapter {wanted}: no adapter has that in its name; there is: {}", names.join(", "))
+            })?
         }
         None => {
             let rank = |adapter: &wgpu::Adapter| match adapter.get_info().device_type {

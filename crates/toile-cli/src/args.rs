@@ -1,6 +1,7 @@
 //! What the user types.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 /// Cloth simulation on the GPU: sews garments around bodies, drapes them, and says how well.
@@ -38,32 +39,32 @@ pub struct Outfit {
     #[arg(long, value_name = "NAME")]
     pub clip: Option<String>,
     /// Time in the clip [s].
-    #[arg(long, value_name = "SECONDS", default_value_t = 0.0)]
+    #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = parse_time)]
     pub time: f64,
     /// Garment as GarmentCode JSON; repeat it to wear one over the other, inner ones first.
     #[arg(long, value_name = "FILE")]
     pub garment: Vec<PathBuf>,
     /// Distance of neighbouring particles.
-    #[arg(long, value_name = "LENGTH", default_value = "1cm", value_parser = parse_length)]
+    #[arg(long, value_name = "LENGTH", default_value = "1cm", value_parser = parse_spacing)]
     pub spacing: f64,
     /// Edge length of a map texel.
-    #[arg(long, value_name = "LENGTH", default_value = "0.5cm", value_parser = parse_length)]
+    #[arg(long, value_name = "LENGTH", default_value = "0.5cm", value_parser = parse_texel)]
     pub texel: f64,
     /// Fabric: the name of a preset or a TOML file.
     #[arg(long, value_name = "NAME|FILE", default_value = "cotton")]
     pub fabric: String,
 }
 
-/// Where it runs and what is said of it.
+/// Where the results go, and what is said of the run.
 #[derive(Args, Debug)]
 pub struct Running {
     /// Folder for the results.
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
-    /// No progress.
+    /// Print nothing but errors.
     #[arg(long)]
     pub quiet: bool,
-    /// Print the metrics as JSON.
+    /// Print the metrics as JSON, and nothing else.
     #[arg(long)]
     pub json: bool,
     /// Where it runs.
@@ -88,7 +89,7 @@ pub struct Dress {
     /// What is worn.
     #[command(flatten)]
     pub outfit: Outfit,
-    /// Where it runs.
+    /// Where the results go, and what is said of the run.
     #[command(flatten)]
     pub running: Running,
 }
@@ -101,7 +102,7 @@ pub struct Run {
     /// Change a key of the scene, for example n=128 or fabric.threshold=0.01.
     #[arg(long, value_name = "KEY=VALUE", value_parser = parse_setting)]
     pub set: Vec<(String, String)>,
-    /// Where it runs.
+    /// Where the results go, and what is said of the run.
     #[command(flatten)]
     pub running: Running,
 }
@@ -110,17 +111,21 @@ pub struct Run {
 #[derive(Args, Debug)]
 pub struct PlanOf {
     /// Scene file; without it, the outfit given by the options.
+    #[arg(conflicts_with_all = OUTFIT_OPTIONS)]
     pub scene: Option<PathBuf>,
     /// Change a key of the scene.
-    #[arg(long, value_name = "KEY=VALUE", value_parser = parse_setting)]
+    #[arg(long, value_name = "KEY=VALUE", value_parser = parse_setting, requires = "scene")]
     pub set: Vec<(String, String)>,
     /// What is worn.
     #[command(flatten)]
     pub outfit: Outfit,
-    /// Where it runs.
-    #[command(flatten)]
-    pub place: Place,
+    /// Print it as JSON, and nothing else.
+    #[arg(long)]
+    pub json: bool,
 }
+
+/// Names of the options of [`Outfit`], which say nothing about a scene file.
+const OUTFIT_OPTIONS: [&str; 8] = ["body", "body_units", "clip", "time", "garment", "spacing", "texel", "fabric"];
 
 /// `toile adapters`.
 #[derive(Args, Debug)]
@@ -167,21 +172,61 @@ pub enum Backend {
     Reference,
 }
 
+/// Spacings that make cloth [m]: below, a dress has millions of particles; above, its panels have none inside.
+const SPACINGS: RangeInclusive<f64> = 0.001..=0.1;
+/// Texels that show a body [m].
+const TEXELS: RangeInclusive<f64> = 0.0005..=0.05;
+
+fn parse_spacing(text: &str) -> Result<f64, String> {
+    parse_length(text, SPACINGS)
+}
+
+fn parse_texel(text: &str) -> Result<f64, String> {
+    parse_length(text, TEXELS)
+}
+
 /// A length such as 1cm, 5mm or 0.01m, in metres.
-fn parse_length(text: &str) -> Result<f64, String> {
+fn parse_length(text: &str, allowed: RangeInclusive<f64>) -> Result<f64, String> {
     let split = text.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(text.len());
     let (number, unit) = text.split_at(split);
-    let unit = if unit.is_empty() { Unit::M } else { Unit::from_str(unit, true)? };
-    match number.trim().parse::<f64>() {
-        Ok(value) if value.is_finite() && value > 0.0 => Ok(value * unit.metres()),
-        _ => Err(format!("{text} is not a positive length; write 1cm, 5mm or 0.01m")),
+    let unit = if unit.is_empty() { Ok(Unit::M) } else { Unit::from_str(unit, true) };
+    match (number.trim().parse::<f64>(), unit) {
+        (Ok(value), Ok(unit)) if allowed.contains(&(value * unit.metres())) => Ok(value * unit.metres()),
+        (Ok(_), Ok(_)) => Err(format!("it must be {} mm to {} mm", 1e3 * allowed.start(), 1e3 * allowed.end())),
+        _ => Err("it is not a length; write 1cm, 5mm or 0.01m".to_owned()),
+    }
+}
+
+fn parse_time(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
+        _ => Err("it is not a time; write seconds, such as 0.5".to_owned()),
     }
 }
 
 fn parse_setting(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
         Some((key, value)) if !key.trim().is_empty() => Ok((key.trim().to_owned(), value.trim().to_owned())),
-        _ => Err(format!("{text} is not KEY=VALUE")),
+        _ => Err("it is not KEY=VALUE".to_owned()),
+    }
+}
+
+/// What is wrong with the options, as one sentence; `None` for what is no error, such as a call for help.
+pub fn sentence(error: &clap::Error) -> Option<String> {
+    use clap::error::ErrorKind;
+    match error.kind() {
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
+            None
+        }
+        _ => {
+            let text = error.to_string();
+            let paragraphs = text.split("\n\n").map(|part| part.split_whitespace().collect::<Vec<_>>().join(" "));
+            let told: Vec<String> = paragraphs
+                .filter(|part| !part.is_empty() && !part.starts_with("Usage:") && !part.starts_with("For more"))
+                .map(|part| part.trim_start_matches("error: ").to_owned())
+                .collect();
+            Some(told.join("; "))
+        }
     }
 }
 
@@ -190,13 +235,57 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lengths_have_units() {
-        assert_eq!(parse_length("1cm"), Ok(0.01));
-        assert_eq!(parse_length("5 mm"), Ok(0.005));
-        assert_eq!(parse_length("0.02"), Ok(0.02));
-        for wrong in ["-1cm", "0", "cm", "1 parsec", "nanm", "inf"] {
-            assert!(parse_length(wrong).is_err(), "{wrong}");
+    fn lengths_have_units_and_bounds() {
+        assert_eq!(parse_spacing("1cm"), Ok(0.01));
+        assert_eq!(parse_spacing("5 mm"), Ok(0.005));
+        assert_eq!(parse_spacing("0.02"), Ok(0.02));
+        assert_eq!(parse_texel("0.5mm"), Ok(0.0005));
+        for wrong in ["-1cm", "0", "cm", "1 parsec", "nanm", "inf", "10m", "0.01mm", ""] {
+            assert!(parse_spacing(wrong).is_err(), "{wrong}");
         }
+    }
+
+    #[test]
+    fn a_time_is_finite_and_not_negative() {
+        assert_eq!(parse_time("0.5"), Ok(0.5));
+        for wrong in ["-1", "nan", "inf", "soon"] {
+            assert!(parse_time(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn wrong_options_are_one_sentence() {
+        let said = |words: &[&str]| {
+            let error = Arguments::try_parse_from(words).expect_err("wrong options");
+            sentence(&error).expect("an error")
+        };
+        insta::assert_snapshot!(
+            [
+                said(&["toile", "dress", "--spacing", "0"]),
+                said(&["toile", "dress", "--spacing", "10m"]),
+                said(&["toile", "dress", "--texel", "big"]),
+                said(&["toile", "dress", "--backend", "cuda"]),
+                said(&["toile", "dress", "--jsn"]),
+                said(&["toile", "run"]),
+                said(&["toile", "run", "hang.toml", "--set", "n"]),
+                said(&["toile", "plan", "--set", "n=3"]),
+                said(&["toile", "plan", "hang.toml", "--fabric", "silk"]),
+                said(&["toile", "sew"]),
+            ]
+            .join("\n"),
+            @"
+        invalid value '0' for '--spacing <LENGTH>': it must be 1 mm to 100 mm
+        invalid value '10m' for '--spacing <LENGTH>': it must be 1 mm to 100 mm
+        invalid value 'big' for '--texel <LENGTH>': it is not a length; write 1cm, 5mm or 0.01m
+        invalid value 'cuda' for '--backend <BACKEND>' [possible values: gpu, reference]
+        unexpected argument '--jsn' found; tip: a similar argument exists: '--json'
+        the following required arguments were not provided: <SCENE>
+        invalid value 'n' for '--set <KEY=VALUE>': it is not KEY=VALUE
+        the following required arguments were not provided: <SCENE>
+        the argument '[SCENE]' cannot be used with '--fabric <NAME|FILE>'
+        unrecognized subcommand 'sew'
+        "
+        );
     }
 
     #[test]

@@ -1,11 +1,12 @@
 //! A cloth being simulated, on the GPU or by the reference.
 
 use crate::adapter::Gpu;
+use crate::interrupt;
 use anyhow::Result;
 use glam::Vec3;
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use toile::gpu::{BodyMaps, PassTime, Surface, Timer, readback};
+use toile::gpu::{BodyMaps, Kernel, PassTime, Surface, Timer, readback};
 use toile::model::{MapFrame, Merge, Model, Status, StepSettings};
 use toile::scene::{Mesh, Sphere};
 use toile::{Colliders, Simulation};
@@ -109,6 +110,7 @@ fn draw_maps(gpu: &Gpu, layers: &[Layer], texel: f32) -> Result<BodyMaps> {
 impl Engine<'_> {
     /// Does one frame and waits for it.
     pub fn frame(&mut self) -> Result<Status> {
+        interrupt::check()?;
         match self {
             Engine::Gpu { gpu, simulation } => {
                 let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -121,12 +123,9 @@ impl Engine<'_> {
                 reference.frame();
                 let status = reference.status();
                 if let Some(particle) = status.first_non_finite {
-                    return Err(toile::Error::Diverged {
-                        step: status.step,
-                        particle,
-                        count: status.non_finite_count,
-                    }
-                    .into());
+                    return Err(
+                        toile::Error::Diverged { step: status.step, particle, count: status.non_finite_count }.into()
+                    );
                 }
                 Ok(status)
             }
@@ -172,23 +171,22 @@ impl Engine<'_> {
         }
     }
 
-    /// The passes of a step and what each costs per step [ms]; empty by the reference or without timestamps.
+    /// The kernels of a step and the median of what each costs per step [ms]; empty by the reference.
     /// It goes on by a few steps, so call it last.
     pub fn pass_times(&mut self) -> Result<BTreeMap<String, PassTime>> {
         let Engine::Gpu { gpu, simulation } = self else { return Ok(BTreeMap::new()) };
-        let Some(mut timer) = Timer::new(&gpu.device) else { return Ok(BTreeMap::new()) };
-        let mut sums: BTreeMap<String, PassTime> = BTreeMap::new();
+        let timer = Timer::new(&gpu.device, &gpu.queue)?;
+        let mut samples: BTreeMap<Kernel, Vec<PassTime>> = BTreeMap::new();
         for _ in 0..TIMED_STEPS {
-            let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            simulation.record_timed_step(&gpu.device, &mut encoder, &mut timer);
-            gpu.queue.submit([encoder.finish()]);
-            for (kernel, time) in timer.read(&gpu.device, &gpu.queue)? {
-                let sum = sums.entry(kernel.name().to_owned()).or_default();
-                sum.dispatches = time.dispatches;
-                sum.milliseconds += time.milliseconds / f64::from(TIMED_STEPS);
+            for (kernel, time) in simulation.time_step(&gpu.device, &gpu.queue, &timer)? {
+                samples.entry(kernel).or_default().push(time);
             }
         }
-        Ok(sums)
+        let median = |mut times: Vec<PassTime>| {
+            times.sort_by(|a, b| a.milliseconds.total_cmp(&b.milliseconds));
+            times[times.len() / 2]
+        };
+        Ok(samples.into_iter().map(|(kernel, times)| (kernel.name().to_owned(), median(times))).collect())
     }
 
     /// Bytes on the device.

@@ -4,22 +4,46 @@ mod adapter;
 mod args;
 mod commands;
 mod engine;
+mod interrupt;
+mod mesa_layer;
 mod metrics;
 mod output;
 mod picture;
 mod progress;
+mod simulate;
+mod sphere_mesh;
 mod worn;
 
 use clap::Parser;
 use std::process::ExitCode;
 
+/// Exit code of a bad option, a bad file, a run that fails.
+const FAILED: u8 = 2;
+/// Exit code after ctrl-c: what a shell reports of a program that the signal ends.
+const INTERRUPTED: u8 = 130;
+
 fn main() -> ExitCode {
-    let arguments = args::Arguments::parse();
-    match commands::run(&arguments.command) {
+    mesa_layer::silence();
+    let arguments = match args::Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => match args::sentence(&error) {
+            Some(sentence) => return fail(&sentence),
+            None => error.exit(),
+        },
+    };
+    match interrupt::listen().and_then(|()| commands::run(&arguments.command)) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error:#}");
-            ExitCode::from(2)
+        Err(error) if error.is::<interrupt::Interrupted>() => {
+            eprintln!("{error}");
+            ExitCode::from(INTERRUPTED)
         }
+        Err(error) => fail(&format!("{error:#}")),
     }
+}
+
+/// Says why on one line, so that a log or a script can take it as it is.
+fn fail(sentence: &str) -> ExitCode {
+    let words: Vec<&str> = sentence.split_whitespace().collect();
+    eprintln!("error: {}", words.join(" "));
+    ExitCode::from(FAILED)
 }

@@ -1,10 +1,9 @@
 //! The files of a run: written to a folder of another name first, so that no half-written result is ever seen.
 
+use crate::interrupt;
 use crate::metrics::Metrics;
 use crate::picture::{self, Drawn, Material, View};
-use crate::worn::Worn;
-use anyhow::{Context, Result};
-use glam::Vec3;
+use anyhow::{Context, Result, bail};
 use std::fs;
 use std::path::Path;
 use toile::files::{NamedMesh, write_atomically, write_glb, write_obj};
@@ -12,21 +11,41 @@ use toile::scene::Mesh;
 
 /// Height of the pictures [px].
 const PICTURE_HEIGHT: u32 = 1000;
-/// Colour of the body in the GLB, linear RGB.
-const BODY_COLOUR: [f32; 3] = [0.55, 0.36, 0.27];
 
-/// Writes the dressed body, the cloth, three pictures and the metrics.
-pub fn write(folder: &Path, bodies: &[(String, Mesh)], worn: &[Worn], metrics: &Metrics) -> Result<()> {
-    let parent = match folder.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    fs::create_dir_all(parent).with_context(|| format!("cannot create {}", parent.display()))?;
-    let unfinished = tempfile::Builder::new()
+/// A mesh of the result and its name.
+#[derive(Clone, Copy)]
+pub struct Shown<'a> {
+    /// Name of its node in the GLB.
+    pub name: &'a str,
+    /// The mesh.
+    pub mesh: &'a Mesh,
+}
+
+/// An error when the results could not be written to a folder: better now than after the run. Leaves nothing behind.
+pub fn check(folder: &Path) -> Result<()> {
+    if folder.exists() && !folder.is_dir() {
+        bail!("--out {}: it is a file; name a folder", folder.display());
+    }
+    let existing = existing(folder);
+    // A file without a name, gone when it is closed.
+    tempfile::tempfile_in(existing)
+        .map(|_| ())
+        .with_context(|| format!("--out {}: cannot write to {}", folder.display(), existing.display()))
+}
+
+/// Writes bodies and cloths, the cloths alone, three pictures and the metrics.
+pub fn write(folder: &Path, bodies: &[Shown<'_>], cloths: &[Shown<'_>], metrics: &Metrics) -> Result<()> {
+    let beside = existing(folder);
+    let mut builder = tempfile::Builder::new();
+    // Temporary folders are private by default; this one becomes the result.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));
+    let unfinished = builder
         .prefix(".toile-unfinished-")
-        .tempdir_in(parent)
-        .with_context(|| format!("cannot write beside {}", folder.display()))?;
-    write_files(unfinished.path(), bodies, worn, metrics)?;
+        .tempdir_in(beside)
+        .with_context(|| format!("cannot write to {}", beside.display()))?;
+    write_files(unfinished.path(), bodies, cloths, metrics)?;
+    interrupt::check()?;
     fs::create_dir_all(folder).with_context(|| format!("cannot create {}", folder.display()))?;
     for entry in fs::read_dir(unfinished.path())? {
         let entry = entry?;
@@ -36,20 +55,31 @@ pub fn write(folder: &Path, bodies: &[(String, Mesh)], worn: &[Worn], metrics: &
     Ok(())
 }
 
-fn write_files(folder: &Path, bodies: &[(String, Mesh)], worn: &[Worn], metrics: &Metrics) -> Result<()> {
-    let colour = |index: usize| Material::cloth(index).outside;
-    let mut meshes: Vec<NamedMesh<'_>> =
-        bodies.iter().map(|(name, mesh)| NamedMesh { name, mesh, colour: BODY_COLOUR }).collect();
-    for (index, cloth) in worn.iter().enumerate() {
-        meshes.push(NamedMesh { name: &cloth.name, mesh: &cloth.mesh, colour: colour(index) });
+/// The folder itself, or the nearest one above it that exists.
+fn existing(folder: &Path) -> &Path {
+    folder
+        .ancestors()
+        .map(|above| if above.as_os_str().is_empty() { Path::new(".") } else { above })
+        .find(|above| above.exists())
+        .unwrap_or(Path::new("."))
+}
+
+fn write_files(folder: &Path, bodies: &[Shown<'_>], cloths: &[Shown<'_>], metrics: &Metrics) -> Result<()> {
+    let mut meshes = Vec::new();
+    let mut drawn = Vec::new();
+    for Shown { name, mesh } in bodies {
+        meshes.push(NamedMesh { name, mesh, colour: Material::SKIN.linear_outside() });
+        drawn.push(Drawn { mesh, material: Material::SKIN });
+    }
+    for (index, Shown { name, mesh }) in cloths.iter().enumerate() {
+        let material = Material::cloth(index);
+        meshes.push(NamedMesh { name, mesh, colour: material.linear_outside() });
+        drawn.push(Drawn { mesh, material });
     }
     write_glb(&folder.join("dressed.glb"), &meshes)?;
-    write_obj(&folder.join("garment.obj"), &joined(worn))?;
-    let mut drawn: Vec<Drawn<'_>> = bodies.iter().map(|(_, mesh)| Drawn { mesh, material: Material::SKIN }).collect();
-    for (index, cloth) in worn.iter().enumerate() {
-        drawn.push(Drawn { mesh: &cloth.mesh, material: Material::cloth(index) });
-    }
+    write_obj(&folder.join("garment.obj"), &joined(cloths))?;
     for (name, view) in [("front.png", View::Front), ("back.png", View::Back), ("side.png", View::Side)] {
+        interrupt::check()?;
         picture::save_png(&folder.join(name), &picture::render(&drawn, view, PICTURE_HEIGHT)?)?;
     }
     write_atomically(&folder.join("metrics.json"), serde_json::to_string_pretty(metrics)?.as_bytes())?;
@@ -57,13 +87,13 @@ fn write_files(folder: &Path, bodies: &[(String, Mesh)], worn: &[Worn], metrics:
 }
 
 /// All cloths as one mesh.
-fn joined(worn: &[Worn]) -> Mesh {
+fn joined(cloths: &[Shown<'_>]) -> Mesh {
     let mut whole = Mesh::default();
-    for cloth in worn {
+    for Shown { mesh, .. } in cloths {
         let first = whole.positions.len() as u32;
-        whole.positions.extend::<&[Vec3]>(&cloth.mesh.positions);
-        whole.normals.extend::<&[Vec3]>(&cloth.mesh.normals);
-        whole.triangles.extend(cloth.mesh.triangles.iter().map(|t| t.map(|i| i + first)));
+        whole.positions.extend_from_slice(&mesh.positions);
+        whole.normals.extend_from_slice(&mesh.normals);
+        whole.triangles.extend(mesh.triangles.iter().map(|t| t.map(|i| i + first)));
     }
     whole
 }

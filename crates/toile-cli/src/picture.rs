@@ -13,7 +13,7 @@ mod soup;
 #[cfg(test)]
 mod tests;
 
-pub use file::{save_png, strip};
+pub use file::save_png;
 
 use camera::Camera;
 use image::RgbImage;
@@ -59,6 +59,11 @@ impl Material {
         let sides = [(BLUE, ORANGE), (CREAM, ORANGE), (GREEN, ORANGE), (RED, TEAL)];
         let (outside, inside) = sides[index % sides.len()];
         Self { outside, inside, look: Look::Cloth }
+    }
+
+    /// Colour of the outside as files of meshes hold it: linear RGB, 0 to 1.
+    pub fn linear_outside(&self) -> [f32; 3] {
+        colour::linear(self.outside).to_array()
     }
 }
 

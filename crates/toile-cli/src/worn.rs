@@ -6,7 +6,7 @@ use anyhow::{Context, Result, anyhow};
 use std::collections::BTreeMap;
 use std::time::Instant;
 use toile::gpu::PassTime;
-use toile::model::{Dressing, DressingError, Model, Stage, Status, StepSettings};
+use toile::model::{Dressing, DressingError, Merge, Model, Stage, Status, StepSettings};
 use toile::scene::{Garment, Mesh, Settings, Sphere};
 
 /// A cloth that has been simulated.
@@ -77,9 +77,7 @@ impl Log {
 }
 
 /// Sews a garment around what it finds, and drapes it until it is at rest.
-pub static DEBUG: std::sync::OnceLock<Mesh> = std::sync::OnceLock::new();
 pub fn dress(garment: &Garment, settings: &Settings, around: &Surroundings<'_>) -> Result<Worn> {
-    let _ = DEBUG.set(around.layers[0].mesh.clone());
     let open = Model::from_garment(garment, settings)?;
     let open_settings = StepSettings::new(settings, &open).sewing();
     let mut engine = around.computer.start(&open, &open_settings, around.layers, around.sphere, around.texel)?;
@@ -94,23 +92,21 @@ pub fn dress(garment: &Garment, settings: &Settings, around: &Surroundings<'_>) 
         }
     }
     let (sewn, merge) = open.sewn();
-    let sewn_settings = StepSettings::new(settings, &sewn).draping();
-    engine = engine.sewn(&sewn, &merge, &sewn_settings)?;
+    let step = StepSettings::new(settings, &sewn);
+    engine = engine.sewn(&sewn, &merge, &step.easing())?;
+    while dressing.stage() == Stage::Easing {
+        let status = log.frame(&mut engine, &step.easing())?;
+        progress.say(format!("easing, step {}, elongation {:.3}", status.step, status.elongation_max));
+        dressing.advance(&status, sewn.particle_count()).with_context(|| format!("garment {}", garment.name))?;
+    }
+    let sewn_settings = step.draping();
+    engine = engine.sewn(&sewn, &Merge::identity(sewn.particle_count()), &sewn_settings)?;
     let mut status = Status::default();
     while dressing.stage() == Stage::Draping {
         status = log.frame(&mut engine, &sewn_settings)?;
         let energy = status.kinetic_energy / sewn.particle_count() as f32;
         progress.say(format!("draping, step {}, {energy:.1e} J per particle", status.step));
-        if let Err(error) = dressing.advance(&status, sewn.particle_count()) { eprintln!("{status:?}");
-            let a = engine.state()?; engine.frame()?; let b = engine.state()?;
-            let mut rows: Vec<(f32, usize)> = (0..a.positions.len()).map(|i| (60.0 * a.positions[i].distance(b.positions[i]), i)).collect();
-            rows.sort_by(|x, y| y.0.total_cmp(&x.0));
-            for (v, i) in rows.iter().take(25) { eprintln!("{v:.3} {i} {:?} touching {} quads {}", b.positions[*i], b.touching[*i], sewn.particle_quads.row(*i).len()); }
-            eprintln!("median {} p90 {}", rows[rows.len()/2].0, rows[rows.len()/10].0);
-            let mut e: Vec<(f32, _)> = sewn.limits.iter().map(|l| (b.positions[l.ends[0] as usize].distance(b.positions[l.ends[1] as usize])/l.rest_length - 1.0, l)).collect();
-            e.sort_by(|x, y| y.0.total_cmp(&x.0));
-            for (v, l) in e.iter().take(15) { eprintln!("elong {v:.3} {:?} {:?} rest {}", l.ends, b.positions[l.ends[0] as usize], l.rest_length); }
-            return Err(name_seam(error, &sewn, &engine, &garment.name)); }
+        dressing.advance(&status, sewn.particle_count()).with_context(|| format!("garment {}", garment.name))?;
     }
     progress.finish(format!("dressed in {} + {} steps", dressing.sewing_steps(), dressing.draping_steps()));
     let mut worn = finish(&garment.name, sewn, sewn_settings, engine, status, log)?;
@@ -162,14 +158,6 @@ fn finish(
 
 /// Names the seam that stayed open.
 fn name_seam(error: DressingError, open: &Model, engine: &Engine<'_>, garment: &str) -> anyhow::Error {
-    // DEBUG
-    if let Ok(state) = engine.state() {
-        let mesh = Mesh { positions: state.positions, normals: state.normals, triangles: open.triangles() };
-        let body = DEBUG.get().unwrap();
-        let drawn = [crate::picture::Drawn { mesh: body, material: crate::picture::Material::SKIN }, crate::picture::Drawn { mesh: &mesh, material: crate::picture::Material::cloth(0) }];
-        let strip: Vec<_> = [crate::picture::View::Front, crate::picture::View::Back, crate::picture::View::Side].iter().map(|v| crate::picture::render(&drawn, *v, 900).unwrap()).collect();
-        crate::picture::save_png(std::path::Path::new("/tmp/debug.png"), &crate::picture::strip(&strip)).unwrap();
-    }
     let seam = match (&error, engine.state()) {
         (DressingError::SeamsOpen { .. }, Ok(state)) => {
             open.widest_seam(&state.positions).map(|(name, _)| format!(", seam {name}")).unwrap_or_default()

@@ -1,10 +1,10 @@
 //! The buffers of a plan: those that its kernels name, and no other.
 
-use crate::GpuError;
+use crate::{GpuError, Plan};
 use encase::{ShaderType, StorageBuffer, UniformBuffer, internal::WriteInto};
 use glam::{Vec3, Vec4};
 use std::collections::BTreeMap;
-use toile_kernels::{Binding, Resource, WORKGROUP_SIZE, structs};
+use toile_kernels::{Binding, Interface, Resource, WORKGROUP_SIZE, structs};
 use toile_model::{Model, StepSettings};
 use toile_scene::Friction;
 use wgpu::util::DeviceExt;
@@ -28,19 +28,13 @@ impl Buffers {
     ) -> Result<Self, GpuError> {
         let mut by_name = BTreeMap::new();
         let most = device.limits().max_storage_buffer_binding_size;
-        for binding in bindings {
-            let name = binding.name.as_str();
-            let is_buffer = matches!(binding.resource, Resource::Uniform { .. } | Resource::Storage { .. });
-            // The frame of the maps lives with the maps.
-            if !is_buffer || name == "map_frame" || by_name.contains_key(name) {
-                continue;
-            }
+        for (name, resource) in named(bindings) {
             let contents = contents(name, model, settings);
-            let size = contents.size().max(16);
+            let size = contents.size();
             if size > most {
                 return Err(GpuError::BufferTooLarge { name: name.to_owned(), needed: size, available: most });
             }
-            by_name.insert(name.to_owned(), create(device, name, binding.resource, contents));
+            by_name.insert(name.to_owned(), create(device, name, resource, contents));
         }
         Ok(Self { by_name })
     }
@@ -69,6 +63,25 @@ impl Buffers {
     }
 }
 
+impl Plan {
+    /// Name and bytes of each buffer that a solver of this plan creates, by name. It needs no device.
+    pub fn buffer_sizes(&self, model: &Model, settings: &StepSettings) -> BTreeMap<String, u64> {
+        let bindings: Vec<Binding> =
+            self.kernels().into_iter().flat_map(|kernel| Interface::of(kernel).bindings).collect();
+        let size = |name: &str| contents(name, model, settings).size();
+        named(bindings.iter()).into_keys().map(|name| (name.to_owned(), size(name))).collect()
+    }
+}
+
+/// The buffers among bindings. The frame of the maps lives with the maps.
+fn named<'a>(bindings: impl Iterator<Item = &'a Binding>) -> BTreeMap<&'a str, Resource> {
+    bindings
+        .filter(|binding| matches!(binding.resource, Resource::Uniform { .. } | Resource::Storage { .. }))
+        .filter(|binding| binding.name != "map_frame")
+        .map(|binding| (binding.name.as_str(), binding.resource))
+        .collect()
+}
+
 /// What a buffer holds at the start.
 enum Contents {
     Bytes(Vec<u8>),
@@ -76,11 +89,13 @@ enum Contents {
 }
 
 impl Contents {
+    /// Bytes of the buffer. Not less than a vec4: a binding cannot be empty.
     fn size(&self) -> u64 {
-        match self {
+        let size = match self {
             Contents::Bytes(bytes) => bytes.len() as u64,
             Contents::Zeros(size) => *size,
-        }
+        };
+        size.max(16)
     }
 }
 
@@ -95,16 +110,15 @@ fn create(device: &wgpu::Device, name: &str, resource: Resource, contents: Conte
                 | wgpu::BufferUsages::COPY_DST
         }
     };
+    let size = contents.size();
     match contents {
-        Contents::Bytes(bytes) if !bytes.is_empty() => {
+        Contents::Bytes(mut bytes) => {
+            bytes.resize(size as usize, 0);
             device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(name), contents: &bytes, usage })
         }
-        other => device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some(name),
-            size: other.size().max(16),
-            usage,
-            mapped_at_creation: false,
-        }),
+        Contents::Zeros(_) => {
+            device.create_buffer(&wgpu::BufferDescriptor { label: Some(name), size, usage, mapped_at_creation: false })
+        }
     }
 }
 
@@ -124,7 +138,8 @@ fn contents(name: &str, model: &Model, settings: &StepSettings) -> Contents {
         "link_offsets" => words(&model.links.offsets),
         "link_others" => words(&model.links.values.iter().map(|l| l.other).collect::<Vec<_>>()),
         "link_springs" => {
-            let spring = |l: &toile_model::Link| structs::LinkSpring { rest_length: l.rest_length, stiffness: l.stiffness };
+            let spring =
+                |l: &toile_model::Link| structs::LinkSpring { rest_length: l.rest_length, stiffness: l.stiffness };
             array(model.links.values.iter().map(spring).collect())
         }
         "limits" => {
@@ -145,15 +160,19 @@ fn contents(name: &str, model: &Model, settings: &StepSettings) -> Contents {
             array(model.seam_pairs.iter().map(pair).collect())
         }
         "holds" => {
-            let hold = |h: &toile_model::Hold| structs::Hold { particle: h.particle, height: h.height };
+            let hold = |h: &toile_model::Hold| structs::Hold {
+                first: h.particles.start,
+                count: h.particles.end - h.particles.start,
+                height: h.height,
+            };
             array(model.holds.iter().map(hold).collect())
         }
+        "held_particles" => words(&model.held_particles),
         "quads" => Contents::Bytes(bytemuck::cast_slice(&model.quads).to_vec()),
         "particle_quad_offsets" => words(&model.particle_quads.offsets),
         "particle_quads" => words(&model.particle_quads.values),
         "midpoints" => zeroed::<structs::Midpoint>(quads),
         "probes" => zeroed::<structs::Probe>(particles + quads),
-        "responses" => zeroed::<structs::Response>(quads),
         "contacts" => zeroed::<structs::Contact>(particles),
         "status" => zeroed::<structs::Status>(1),
         "energy_partials" => Contents::Zeros(4 * particles.div_ceil(u64::from(WORKGROUP_SIZE))),
@@ -177,9 +196,8 @@ fn step_params(model: &Model, settings: &StepSettings) -> structs::StepParams {
         friction: settings.friction,
         velocity_kept,
         force_removed,
-        hold_stiffness: settings.hold_stiffness,
-        hold_acceleration: settings.hold_acceleration,
-        recovery_speed: settings.recovery_speed,
+        hold_rate: settings.hold_rate,
+        hold_speed: settings.hold_speed,
         particle_count: model.particle_count(),
         quad_count: model.quad_count(),
     }

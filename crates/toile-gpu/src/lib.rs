@@ -1,6 +1,6 @@
 //! Plan, buffers, maps, pipelines, solver, status, timing and read-back on a wgpu device.
 //!
-//! Nothing here creates a device, submits, or waits, except the functions of [`readback`] and [`Timer::read`], which are for
+//! Nothing here creates a device, submits, or waits, except the functions of [`readback`], [`Timer`] and [`Solver::time_step`], which are for
 //! tests, benches and programs that write files.
 
 mod buffers;
@@ -19,3 +19,4 @@ pub use plan::{Pass, Plan};
 pub use program::Program;
 pub use solver::{Colliders, Solver};
 pub use timing::{PassTime, Timer};
+pub use toile_kernels::Kernel;

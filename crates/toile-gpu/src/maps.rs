@@ -33,7 +33,12 @@ impl Surface {
         Self {
             positions: vertices("surface positions", &mesh.positions),
             normals: vertices("surface normals", &mesh.normals),
-            indices: create(device, "surface indices", bytemuck::cast_slice(&mesh.triangles), wgpu::BufferUsages::INDEX),
+            indices: create(
+                device,
+                "surface indices",
+                bytemuck::cast_slice(&mesh.triangles),
+                wgpu::BufferUsages::INDEX,
+            ),
             index_count: 3 * mesh.triangles.len() as u32,
         }
     }
@@ -84,10 +89,8 @@ impl BodyMaps {
         };
         let depth = texture("depth map", DEPTH_FORMAT);
         let normals = texture("normal map", NORMAL_FORMAT);
-        let all_layers = wgpu::TextureViewDescriptor {
-            dimension: Some(wgpu::TextureViewDimension::D2Array),
-            ..Default::default()
-        };
+        let all_layers =
+            wgpu::TextureViewDescriptor { dimension: Some(wgpu::TextureViewDimension::D2Array), ..Default::default() };
         let uniform = structs::MapFrame {
             origin_x: frame.origin_x,
             origin_y: frame.origin_y,
@@ -167,10 +170,15 @@ impl BodyMaps {
         &self.normals
     }
 
-    /// Bytes of the textures.
+    /// Bytes of the textures and of what the kernels know of their frame.
     pub fn bytes(&self) -> u64 {
-        let texels = 2 * u64::from(self.frame.columns) * u64::from(self.frame.rows);
-        texels * (4 + 16) + self.frame_uniform.size()
+        Self::bytes_over(&self.frame)
+    }
+
+    /// Bytes that maps over a frame have. It needs no device.
+    pub fn bytes_over(frame: &MapFrame) -> u64 {
+        let texels = 2 * u64::from(frame.columns) * u64::from(frame.rows);
+        texels * (4 + 16) + <structs::MapFrame as encase::ShaderType>::min_size().get()
     }
 
     /// The resource that the kernels know by this name, if it is one of the maps.
@@ -209,8 +217,8 @@ fn create_pipeline(device: &wgpu::Device) -> (wgpu::BindGroupLayout, wgpu::Rende
         },
         count: None,
     };
-    let layout = device
-        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries: &[uniform(0), uniform(1)] });
+    let layout =
+        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries: &[uniform(0), uniform(1)] });
     let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label,
         bind_group_layouts: &[Some(&layout)],

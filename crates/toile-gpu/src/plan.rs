@@ -96,7 +96,7 @@ fn passes(row: &Row, model: &Model) -> Vec<Pass> {
         Domain::Particle => all(model.particle_count()),
         Domain::Quad => all(model.quad_count()),
         Domain::Point => all(model.particle_count() + model.quad_count()),
-        Domain::Hold => all(model.holds.len() as u32),
+        Domain::Hold => all(WORKGROUP_SIZE * model.holds.len() as u32),
         Domain::Limit => all(model.limits.len() as u32),
         Domain::LimitColour => coloured(&model.limit_colours),
         Domain::SeamPair => all(model.seam_pair_count()),

@@ -2,7 +2,7 @@
 
 use crate::buffers::{Buffers, MOVING_UNIFORM_STRIDE, uniform_bytes};
 use crate::status::StatusReader;
-use crate::timing::Timer;
+use crate::timing::{PassTime, Timer};
 use crate::{BodyMaps, GpuError, Pass, Plan, Program};
 use std::collections::BTreeMap;
 use toile_kernels::{Kernel, structs};
@@ -53,7 +53,8 @@ impl Solver {
     ) -> Result<Self, GpuError> {
         let needs = Needs::new(model, settings, colliders.maps.is_some(), colliders.sphere.is_some());
         let plan = Plan::new(model, &needs, settings.sweeps);
-        let programs: Vec<_> = plan.kernels().into_iter().map(|kernel| (kernel, Program::new(device, kernel))).collect();
+        let programs: Vec<_> =
+            plan.kernels().into_iter().map(|kernel| (kernel, Program::new(device, kernel))).collect();
         let bindings = programs.iter().flat_map(|(_, program)| &program.interface().bindings);
         let buffers = Buffers::new(device, model, settings, bindings)?;
         let bound = |(kernel, program): (Kernel, Program)| {
@@ -65,7 +66,9 @@ impl Solver {
                 let size = match binding.name.as_str() {
                     "span" => moving_size::<structs::Span>(),
                     "ball" => moving_size::<structs::Ball>(),
-                    _ => None,
+                    // Not "the rest of the buffer": wgpu makes vertex buffers a word longer than asked for, and arrayLength
+                    // would count that word, which nobody cleared.
+                    _ => wgpu::BufferSize::new(buffer.size()),
                 };
                 wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size })
             });
@@ -120,14 +123,62 @@ impl Solver {
         self.status.record(encoder, status, self.step);
     }
 
-    /// Records one step with the time of each pass, beside a state copy. For measuring only: every dispatch is a pass of its own.
-    pub fn record_timed_step(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, timer: &mut Timer) {
-        self.record_sphere(device, encoder, 1);
+    /// Does one step pass by pass and says what each kernel cost, beside a state copy: the unit in which costs are told. For
+    /// measuring only: it submits, and waits after every dispatch.
+    ///
+    /// # Errors
+    /// [`GpuError::Device`] when the device is lost.
+    pub fn time_step(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        timer: &Timer,
+    ) -> Result<BTreeMap<Kernel, PassTime>, GpuError> {
+        let mut encoder = device.create_command_encoder(&Default::default());
+        self.record_sphere(device, &mut encoder, 1);
+        queue.submit([encoder.finish()]);
+        let mut times: BTreeMap<Kernel, PassTime> = BTreeMap::new();
         for pass in &self.plan.step {
-            timer.record(encoder, pass.kernel, |compute| self.dispatch(compute, pass, 0));
+            let time = times.entry(pass.kernel).or_default();
+            time.milliseconds += timer.milliseconds(device, queue, |compute| self.dispatch(compute, pass, 0))?;
+            time.dispatches += 1;
         }
-        timer.record_state_copy(device, encoder, self.particle_count, |name| self.buffers.get(name));
+        let milliseconds = self.time_state_copy(device, queue, timer)?;
+        times.insert(Kernel::StateCopy, PassTime { dispatches: 1, milliseconds });
         self.step += 1;
+        Ok(times)
+    }
+
+    /// Time of a copy of the whole state [ms].
+    fn time_state_copy(&self, device: &wgpu::Device, queue: &wgpu::Queue, timer: &Timer) -> Result<f64, GpuError> {
+        let program = Program::new(device, Kernel::StateCopy);
+        let copies = ["position_copies", "velocity_copies"].map(|label| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size: self.buffers.get("positions").size(),
+                usage: wgpu::BufferUsages::STORAGE,
+                mapped_at_creation: false,
+            })
+        });
+        let group = program.bind(device, |binding| {
+            match binding.name.as_str() {
+                "position_copies" => &copies[0],
+                "velocity_copies" => &copies[1],
+                name => self.buffers.get(name),
+            }
+            .as_entire_binding()
+        });
+        let [x, y] = Pass { kernel: Kernel::StateCopy, items: 0..self.particle_count, colour: None }.workgroups();
+        let copy = || {
+            timer.milliseconds(device, queue, |compute| {
+                compute.set_pipeline(program.pipeline());
+                compute.set_bind_group(0, &group, &[]);
+                compute.dispatch_workgroups(x, y, 1);
+            })
+        };
+        // Drivers compile a kernel when it is first used, and touch memory when it is first written.
+        copy()?;
+        copy()
     }
 
     /// Records the handover from the solver of an open model to this one of the sewn model.

@@ -1,19 +1,25 @@
-//! The time of each pass, by timestamps on the device.
+//! The time of each pass, for measuring only: every pass is submitted and waited for on its own.
 
-use crate::{GpuError, Pass, Program, readback};
-use std::collections::BTreeMap;
-use toile_kernels::Kernel;
+use crate::{GpuError, readback};
+use std::time::Instant;
 
-/// Timestamps that one timer can take.
-const QUERY_COUNT: u32 = 4096;
+/// Empty passes whose fastest is what a submission costs by itself.
+const EMPTY_PASSES: usize = 20;
 
-/// Takes timestamps around passes.
+/// Takes the time of single passes.
+///
+/// It takes timestamps on the device. Where the device has none, or is a CPU, it takes the wall clock around submission and
+/// wait, less what an empty pass takes: software Vulkan writes its timestamps from a thread that does not wait for compute
+/// passes, so that they tell the time of something else.
 #[derive(Debug)]
 pub struct Timer {
-    queries: wgpu::QuerySet,
-    resolved: wgpu::Buffer,
-    kernels: Vec<Kernel>,
-    copies: Option<[wgpu::Buffer; 2]>,
+    clock: Clock,
+}
+
+#[derive(Debug)]
+enum Clock {
+    Timestamps { queries: wgpu::QuerySet, resolved: wgpu::Buffer },
+    Wall { empty_milliseconds: f64 },
 }
 
 /// What a kernel cost.
@@ -26,101 +32,72 @@ pub struct PassTime {
 }
 
 impl Timer {
-    /// A timer; `None` when the device does not have the feature `TIMESTAMP_QUERY`.
-    pub fn new(device: &wgpu::Device) -> Option<Self> {
-        if !device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
-            return None;
-        }
-        let queries = device.create_query_set(&wgpu::QuerySetDescriptor {
-            label: Some("pass times"),
-            ty: wgpu::QueryType::Timestamp,
-            count: QUERY_COUNT,
-        });
-        let resolved = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("pass times"),
-            size: 8 * u64::from(QUERY_COUNT),
-            usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
-            mapped_at_creation: false,
-        });
-        Some(Self { queries, resolved, kernels: Vec::new(), copies: None })
-    }
-
-    /// Records a pass with a timestamp before and after it. Beyond the timer's capacity it is recorded without.
-    pub(crate) fn record(
-        &mut self,
-        encoder: &mut wgpu::CommandEncoder,
-        kernel: Kernel,
-        dispatch: impl FnOnce(&mut wgpu::ComputePass<'_>),
-    ) {
-        let first = 2 * self.kernels.len() as u32;
-        let timestamp_writes = (first + 1 < QUERY_COUNT).then(|| {
-            self.kernels.push(kernel);
-            wgpu::ComputePassTimestampWrites {
-                query_set: &self.queries,
-                beginning_of_pass_write_index: Some(first),
-                end_of_pass_write_index: Some(first + 1),
-            }
-        });
-        let descriptor = wgpu::ComputePassDescriptor { label: Some(kernel.name()), timestamp_writes };
-        dispatch(&mut encoder.begin_compute_pass(&descriptor));
-    }
-
-    /// Records a copy of the whole state: the unit in which costs are told.
-    pub(crate) fn record_state_copy<'a>(
-        &mut self,
-        device: &wgpu::Device,
-        encoder: &mut wgpu::CommandEncoder,
-        particle_count: u32,
-        buffer: impl Fn(&str) -> &'a wgpu::Buffer,
-    ) {
-        let program = Program::new(device, Kernel::StateCopy);
-        let copy = |label| {
-            device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(label),
-                size: buffer("positions").size(),
-                usage: wgpu::BufferUsages::STORAGE,
-                mapped_at_creation: false,
-            })
-        };
-        let copies = self.copies.get_or_insert_with(|| [copy("position copies"), copy("velocity copies")]).clone();
-        let group = program.bind(device, |binding| {
-            match binding.name.as_str() {
-                "position_copies" => &copies[0],
-                "velocity_copies" => &copies[1],
-                name => buffer(name),
-            }
-            .as_entire_binding()
-        });
-        let [x, y] = Pass { kernel: Kernel::StateCopy, items: 0..particle_count, colour: None }.workgroups();
-        self.record(encoder, Kernel::StateCopy, |compute| {
-            compute.set_pipeline(program.pipeline());
-            compute.set_bind_group(0, &group, &[]);
-            compute.dispatch_workgroups(x, y, 1);
-        });
-    }
-
-    /// Waits for the recorded passes, which must have been submitted, and gives the cost of each kernel; starts afresh.
+    /// A timer for a device. Waits for it.
     ///
     /// # Errors
     /// [`GpuError::Device`] when the device is lost.
-    pub fn read(
-        &mut self,
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Self, GpuError> {
+        let software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
+        if !software && device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
+            return Ok(Self { clock: Self::timestamps(device) });
+        }
+        let wall = Self { clock: Clock::Wall { empty_milliseconds: 0.0 } };
+        let empty: Result<Vec<f64>, GpuError> =
+            (0..EMPTY_PASSES).map(|_| wall.milliseconds(device, queue, |_| {})).collect();
+        let empty_milliseconds = empty?.into_iter().fold(f64::INFINITY, f64::min);
+        Ok(Self { clock: Clock::Wall { empty_milliseconds } })
+    }
+
+    fn timestamps(device: &wgpu::Device) -> Clock {
+        let queries = device.create_query_set(&wgpu::QuerySetDescriptor {
+            label: Some("pass time"),
+            ty: wgpu::QueryType::Timestamp,
+            count: 2,
+        });
+        let resolved = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("pass time"),
+            size: 16,
+            usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
+            mapped_at_creation: false,
+        });
+        Clock::Timestamps { queries, resolved }
+    }
+
+    /// Does a pass and says how long it took [ms].
+    pub(crate) fn milliseconds(
+        &self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
-    ) -> Result<BTreeMap<Kernel, PassTime>, GpuError> {
+        dispatch: impl FnOnce(&mut wgpu::ComputePass<'_>),
+    ) -> Result<f64, GpuError> {
         let mut encoder = device.create_command_encoder(&Default::default());
-        let count = 2 * self.kernels.len() as u32;
-        encoder.resolve_query_set(&self.queries, 0..count, &self.resolved, 0);
-        queue.submit([encoder.finish()]);
-        let bytes = readback::read_buffer(device, queue, &self.resolved)?;
-        let ticks: Vec<u64> = bytemuck::pod_collect_to_vec(&bytes);
-        let period = f64::from(queue.get_timestamp_period());
-        let mut times: BTreeMap<Kernel, PassTime> = BTreeMap::new();
-        for (kernel, pair) in self.kernels.drain(..).zip(ticks.chunks_exact(2)) {
-            let time = times.entry(kernel).or_default();
-            time.dispatches += 1;
-            time.milliseconds += pair[1].saturating_sub(pair[0]) as f64 * period * 1e-6;
+        let timestamp_writes = match &self.clock {
+            Clock::Timestamps { queries, .. } => Some(wgpu::ComputePassTimestampWrites {
+                query_set: queries,
+                beginning_of_pass_write_index: Some(0),
+                end_of_pass_write_index: Some(1),
+            }),
+            Clock::Wall { .. } => None,
+        };
+        dispatch(&mut encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: None, timestamp_writes }));
+        match &self.clock {
+            Clock::Timestamps { queries, resolved } => {
+                encoder.resolve_query_set(queries, 0..2, resolved, 0);
+                queue.submit([encoder.finish()]);
+                let bytes = readback::read_buffer(device, queue, resolved)?;
+                let ticks: Vec<u64> = bytemuck::pod_collect_to_vec(&bytes);
+                let period = f64::from(queue.get_timestamp_period());
+                Ok(ticks[1].saturating_sub(ticks[0]) as f64 * period * 1e-6)
+            }
+            Clock::Wall { empty_milliseconds } => {
+                let commands = encoder.finish();
+                let start = Instant::now();
+                queue.submit([commands]);
+                device
+                    .poll(wgpu::PollType::wait_indefinitely())
+                    .map_err(|error| GpuError::Device(error.to_string()))?;
+                Ok((1e3 * start.elapsed().as_secs_f64() - empty_milliseconds).max(0.0))
+            }
         }
-        Ok(times)
     }
 }

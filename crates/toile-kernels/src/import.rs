@@ -7,8 +7,21 @@ macro_rules! shared {
 }
 
 const SHARED: &[(&str, &str)] = &shared![
-    "contact", "item", "limit", "map_frame", "midpoint", "over_long", "point", "probe", "quad", "reduction", "response",
-    "seam_pair", "span", "status", "step_params",
+    "contact",
+    "item",
+    "limit",
+    "map_frame",
+    "midpoint",
+    "over_long",
+    "point",
+    "probe",
+    "quad",
+    "reduction",
+    "response",
+    "seam_pair",
+    "span",
+    "status",
+    "step_params",
 ];
 
 /// The WGSL of a kernel with its imports resolved, each shared file once, before its first use.

@@ -26,12 +26,10 @@ pub struct StepParams {
     pub velocity_kept: f32,
     /// C_fric of W eq. 16 [1].
     pub force_removed: f32,
-    /// Acceleration of a held edge per metre from its height [1/s²].
-    pub hold_stiffness: f32,
-    /// Largest acceleration of a held edge [m/s²].
-    pub hold_acceleration: f32,
-    /// Fastest shortening of a spring that is over-long already [m/s].
-    pub recovery_speed: f32,
+    /// Speed of a held edge towards its height, per metre from it [1/s].
+    pub hold_rate: f32,
+    /// Largest speed of a held edge towards its height [m/s].
+    pub hold_speed: f32,
     /// Number of particles.
     pub particle_count: u32,
     /// Number of quads.
@@ -80,12 +78,14 @@ pub struct SeamPair {
     pub closing_speed: f32,
 }
 
-/// A particle held at its height. `wgsl/step/hold_edges.wgsl`.
+/// The edges of one label, held at their mean height. `wgsl/step/hold_edges.wgsl`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
 pub struct Hold {
-    /// The particle.
-    pub particle: u32,
-    /// Its height [m].
+    /// Where its particles begin among the held particles.
+    pub first: u32,
+    /// Number of its particles.
+    pub count: u32,
+    /// Their mean height [m].
     pub height: f32,
 }
 
@@ -109,19 +109,6 @@ pub struct Probe {
     pub velocity: Vec3,
     /// 1 near enough to matter, 0 not.
     pub hit: f32,
-}
-
-/// How a point answers a collision. `wgsl/shared/response.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct Response {
-    /// Change of the velocity [m/s].
-    pub change: Vec3,
-    /// 1 in contact, 0 not.
-    pub touching: f32,
-    /// Change of the position [m].
-    pub push: Vec3,
-    /// Fills the last word.
-    pub padding: f32,
 }
 
 /// What a particle touched. `wgsl/shared/contact.wgsl`.

@@ -26,7 +26,7 @@ pub enum Domain {
     Quad,
     /// A particle or a quad midpoint.
     Point,
-    /// A held particle.
+    /// A hold; one workgroup each.
     Hold,
     /// A limit.
     Limit,
@@ -124,10 +124,8 @@ kernels! {
     Reaction "step" "reaction" Step Particle Body;
     /// Velocities from forces. W eq. 3.
     Euler "step" "euler" Step Particle Nothing;
-    /// Labelled edges stay at their height while sewing.
+    /// Labelled edges keep their mean height while sewing.
     HoldEdges "step" "hold_edges" Step Hold Holds;
-    /// Seams close at a set speed.
-    CloseSeams "step" "close_seams" Sweep SeamColour Seams;
     /// D §4.3.
     LimitZero "step" "limit_zero" Sweep LimitColour RuleZero;
     /// W eq. 5.
@@ -142,10 +140,10 @@ kernels! {
     SampleMaps "step" "sample_maps" Step Point Maps;
     /// What points see of the sphere.
     SampleSphere "step" "sample_sphere" Step Point Sphere;
-    /// Response of each midpoint. W eq. 15.
-    QuadResponses "step" "quad_responses" Step Quad Body;
-    /// Response of each particle, averaged with those of its quads. D §6.
+    /// Each particle answers its own contact and those of its quads. D §6, W eq. 15.
     Collide "step" "collide" Step Particle Body;
+    /// Seams close at a set speed; last of all, so that a seam that a tight fit holds open closes all the same.
+    CloseSeams "step" "close_seams" Sweep SeamColour Seams;
     /// Positions move last. W eq. 3.
     MoveParticles "step" "move_particles" Step Particle Nothing;
     /// Provot's rule, after the move. W §3.1.

@@ -7,24 +7,28 @@ use thiserror::Error;
 /// Seams count as closed when no gap is wider than this [m].
 const SEAM_GAP: f32 = 0.002;
 /// A garment is at rest when its particles have on average the kinetic energy of this speed [m/s] or less.
-const REST_SPEED: f32 = 0.01;
+const REST_SPEED: f32 = 0.02;
 /// For so many frames on end: a swing has no speed at its turning points.
 const CALM_FRAMES: u32 = 10;
 /// Simulated time after which open seams are an error [s].
 const SEWING_SECONDS: f32 = 3.0;
+/// Simulated time that a sewn garment has to ease [s].
+const EASING_SECONDS: f32 = 0.5;
 /// Simulated time after which a garment that does not come to rest is an error [s].
-const DRAPING_SECONDS: f32 = 3.0;
+const DRAPING_SECONDS: f32 = 8.0;
 /// Viscous damping while sewing [1/s]: panels follow their seams without a momentum that would fold them over.
 const SEWING_DAMPING: f32 = 20.0;
 /// Viscous damping while draping, where the way does not matter, only the end [1/s].
-const DRAPING_DAMPING: f32 = 4.0;
+const DRAPING_DAMPING: f32 = 8.0;
 
 /// What a garment is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
     /// Its seams are being closed, without gravity.
     Sewing,
-    /// It is sewn and falls into place.
+    /// It is sewn and falls without friction to where it stretches least, its labelled edges still held.
+    Easing,
+    /// It comes to rest.
     Draping,
     /// It is at rest.
     Dressed,
@@ -56,7 +60,9 @@ pub enum DressingError {
         limit_mm: f32,
     },
     /// The garment kept moving.
-    #[error("the garment did not come to rest within {steps} steps: its particles have {energy:.2e} J each, more than {limit:.2e} J")]
+    #[error(
+        "the garment did not come to rest within {steps} steps: its particles have {energy:.2e} J each, more than {limit:.2e} J"
+    )]
     NotAtRest {
         /// Steps draped.
         steps: u64,
@@ -66,7 +72,9 @@ pub enum DressingError {
         limit: f32,
     },
     /// The simulation diverged.
-    #[error("the simulation diverged: {count} particles are not finite at step {step}, the first is particle {particle}")]
+    #[error(
+        "the simulation diverged: {count} particles are not finite at step {step}, the first is particle {particle}"
+    )]
     Diverged {
         /// Step at which it was seen.
         step: u64,
@@ -102,7 +110,7 @@ impl Dressing {
         self.sewing_steps
     }
 
-    /// Steps draped so far.
+    /// Steps from the closed seams on.
     pub fn draping_steps(&self) -> u64 {
         self.draping_steps
     }
@@ -112,8 +120,9 @@ impl Dressing {
         self.seam_gap
     }
 
-    /// Takes the status at the end of a frame and says what to do next. After [`Stage::Sewing`] becomes [`Stage::Draping`]
-    /// the solver must be handed over to the sewn model before its next step.
+    /// Takes the status at the end of a frame and says what to do next. When [`Stage::Sewing`] becomes
+    /// [`Stage::Easing`] the solver must be handed over to the sewn model before its next step; when that becomes
+    /// [`Stage::Draping`], to the draping settings.
     ///
     /// # Errors
     /// [`DressingError`] when the step limit is reached or the state is not finite.
@@ -126,13 +135,19 @@ impl Dressing {
                 self.sewing_steps = status.step;
                 self.seam_gap = status.seam_gap_max;
                 if status.seam_gap_max <= SEAM_GAP {
-                    self.stage = Stage::Draping;
+                    self.stage = Stage::Easing;
                 } else if self.sewing_steps as f32 * self.dt > SEWING_SECONDS {
                     return Err(DressingError::SeamsOpen {
                         steps: self.sewing_steps,
                         gap_mm: 1e3 * status.seam_gap_max,
                         limit_mm: 1e3 * SEAM_GAP,
                     });
+                }
+            }
+            Stage::Easing => {
+                self.draping_steps = status.step - self.sewing_steps;
+                if self.draping_steps as f32 * self.dt >= EASING_SECONDS {
+                    self.stage = Stage::Draping;
                 }
             }
             Stage::Draping => {
@@ -142,7 +157,11 @@ impl Dressing {
                 if self.calm_frames >= CALM_FRAMES {
                     self.stage = Stage::Dressed;
                 } else if self.draping_steps as f32 * self.dt > DRAPING_SECONDS {
-                    return Err(DressingError::NotAtRest { steps: self.draping_steps, energy, limit: self.rest_energy });
+                    return Err(DressingError::NotAtRest {
+                        steps: self.draping_steps,
+                        energy,
+                        limit: self.rest_energy,
+                    });
                 }
             }
             Stage::Dressed => {}
@@ -152,14 +171,19 @@ impl Dressing {
 }
 
 impl StepSettings {
-    /// These settings while a garment is sewn: no gravity, and damped.
+    /// These settings while a garment is sewn: no gravity, no friction, and damped.
     pub fn sewing(&self) -> Self {
-        Self { gravity: Vec3::ZERO, damping: self.damping.max(SEWING_DAMPING), ..self.clone() }
+        Self { gravity: Vec3::ZERO, damping: self.damping.max(SEWING_DAMPING), ..self.easing() }
     }
 
-    /// These settings while a sewn garment falls into place: damped.
+    /// These settings while a sewn garment eases: no friction, and damped; its labelled edges are still held.
+    pub fn easing(&self) -> Self {
+        Self { friction: 0.0, damping: self.damping.max(DRAPING_DAMPING), ..self.clone() }
+    }
+
+    /// These settings while a sewn garment comes to rest: damped, and held by the body alone.
     pub fn draping(&self) -> Self {
-        Self { damping: self.damping.max(DRAPING_DAMPING), ..self.clone() }
+        Self { damping: self.damping.max(DRAPING_DAMPING), hold_rate: 0.0, ..self.clone() }
     }
 }
 

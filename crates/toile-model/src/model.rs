@@ -30,8 +30,10 @@ pub struct Model {
     pub seam_pairs: Vec<SeamPair>,
     /// Seam pairs of each colour: no two of them share a particle.
     pub seam_colours: Vec<Range<u32>>,
-    /// Particles of labelled edges, held at their height while sewing; each particle at most once.
+    /// Labelled edges, held at their height while the garment is sewn and eases.
     pub holds: Vec<Hold>,
+    /// The particles of all holds, one hold after the other; each particle at most once.
+    pub held_particles: Vec<u32>,
     /// Corners of each quad, counter-clockwise seen from outside the cloth; a triangle has [`NO_CORNER`] as the fourth. Shape [quad_count].
     pub quads: Vec<[u32; 4]>,
     /// For each particle the quads it is a corner of, ascending; shape [particle_count] rows.
@@ -107,12 +109,14 @@ pub struct SeamPair {
     pub seam: u32,
 }
 
-/// A particle held at its height.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The edges of one label, held at their mean height.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Hold {
-    /// The particle.
-    pub particle: u32,
-    /// Its height y [m].
+    /// The label.
+    pub label: String,
+    /// Where its particles stand in [`Model::held_particles`]; never empty.
+    pub particles: Range<u32>,
+    /// Mean height y at time 0 [m].
     pub height: f32,
 }
 

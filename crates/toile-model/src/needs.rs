@@ -27,7 +27,7 @@ impl Needs {
         Self {
             maps,
             sphere,
-            holds: !model.holds.is_empty(),
+            holds: !model.holds.is_empty() && settings.hold_rate > 0.0,
             seams: !model.seam_pairs.is_empty(),
             rule: if limits && settings.sweeps > 0 { settings.rule } else { Rule::None },
             limits,

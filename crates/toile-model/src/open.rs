@@ -8,10 +8,15 @@ use crate::soften::step_wanted;
 use crate::springs::{Role, panel_springs};
 use crate::{Hold, Model, ModelError, PanelMesh, Spring, SpringKind, rectangle, rim};
 use glam::{DVec2, DVec3};
+use std::collections::BTreeMap;
 use toile_scene::{Garment, Settings, Sheet};
 
 /// Largest particle count of a garment: four times the 1024² grid that the step is made for.
 const PARTICLE_LIMIT: u64 = 4_000_000;
+
+/// Stiffness of a seam spring as part of that of a structural one [1]. At full stiffness a gap of 30 cm would pull its
+/// light edge particles together in some ten steps and crumple the panels behind them; closing is the seam pairs' task.
+const SEAM_STIFFNESS: f32 = 1e-4;
 
 impl Model {
     /// The grid of a sheet. Its flat x runs along `right`, its flat y along `down`.
@@ -80,9 +85,9 @@ impl Model {
         }
         let mut model = Self::from_flat(flat, &places, quads, settings);
         model.panels = panels;
-        model.holds = holds(garment, &edge_particles, &places);
+        (model.holds, model.held_particles) = holds(garment, &edge_particles, &places);
         (model.seam_pairs, model.seam_names) = seam_pairs(garment, &edge_particles, &model.positions);
-        let stiffness = settings.fabric.structural_stiffness as f32;
+        let stiffness = SEAM_STIFFNESS * settings.fabric.structural_stiffness as f32;
         let seam_springs = model.seam_pairs.iter().map(|p| Spring {
             ends: p.ends,
             rest_length: 0.0,
@@ -191,18 +196,29 @@ fn is_valid(mesh: &FlatMesh, outline: impl Iterator<Item = DVec2> + Clone) -> bo
     used.iter().all(|&u| u) && (area - wanted).abs() <= 1e-9 * wanted
 }
 
-/// Particles of labelled edges with their placed height, each once.
-fn holds(garment: &Garment, edge_particles: &[Vec<Vec<u32>>], places: &[DVec3]) -> Vec<Hold> {
-    let mut particles: Vec<u32> = garment
-        .panels
-        .iter()
-        .zip(edge_particles)
-        .flat_map(|(panel, edges)| panel.edges.iter().zip(edges))
-        .filter(|(edge, _)| edge.label.is_some())
-        .flat_map(|(_, particles)| particles.iter().copied())
-        .collect();
-    particles.sort_unstable();
-    particles.dedup();
-    let height = |i: u32| places[i as usize].y as f32;
-    particles.into_iter().map(|particle| Hold { particle, height: height(particle) }).collect()
+/// One hold for each label, and the particles of all of them. A particle between two labels is held by the first.
+fn holds(garment: &Garment, edge_particles: &[Vec<Vec<u32>>], places: &[DVec3]) -> (Vec<Hold>, Vec<u32>) {
+    let mut label_of: BTreeMap<u32, &str> = BTreeMap::new();
+    let edges = garment.panels.iter().zip(edge_particles).flat_map(|(panel, edges)| panel.edges.iter().zip(edges));
+    for (edge, particles) in edges {
+        if let Some(label) = &edge.label {
+            for &particle in particles {
+                label_of.entry(particle).or_insert(label);
+            }
+        }
+    }
+    let mut groups: BTreeMap<&str, Vec<u32>> = BTreeMap::new();
+    for (particle, label) in label_of {
+        groups.entry(label).or_default().push(particle);
+    }
+    let mut holds = Vec::new();
+    let mut held_particles = Vec::new();
+    for (label, particles) in groups {
+        let first = held_particles.len() as u32;
+        let sum: f64 = particles.iter().map(|&i| places[i as usize].y).sum();
+        let height = (sum / particles.len() as f64) as f32;
+        held_particles.extend(particles);
+        holds.push(Hold { label: label.to_owned(), particles: first..held_particles.len() as u32, height });
+    }
+    (holds, held_particles)
 }

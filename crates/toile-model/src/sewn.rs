@@ -7,13 +7,14 @@ use crate::geometry::corners;
 use crate::union_find::UnionFind;
 use crate::{Csr, Hold, Merge, Model, PanelMesh, Spring, SpringKind};
 use glam::{DVec2, DVec3};
+use std::collections::BTreeSet;
 
 impl Model {
     /// The model with the particles of each seam pair made one, and which particles of this model each of them was.
     ///
     /// Masses add up; a merged particle starts at the mean of its members weighted by mass, and is pinned when one of them is.
     /// Springs between the same two particles are one: their stiffness adds up and the shorter rest length holds, so
-    /// the longer side of a seam is gathered. Shear and bend springs across the seams are added.
+    /// the longer side of a seam is gathered. Shear and bend springs across the seams are added. Held edges stay held while the garment eases.
     pub fn sewn(&self) -> (Self, Merge) {
         let (member_of, merge) = self.merge();
         let count = merge.members.row_count();
@@ -37,7 +38,7 @@ impl Model {
             model.flat.push(self.flat[members[0] as usize]);
         }
         model.springs = self.sewn_springs(&member_of, &merge);
-        model.holds = self.sewn_holds(&member_of);
+        (model.holds, model.held_particles) = self.sewn_holds(&member_of);
         (model.quads, model.panels) = self.sewn_quads(&member_of);
         (model.complete(), merge)
     }
@@ -175,19 +176,31 @@ impl Model {
         }
         (quads, panels)
     }
+}
 
-    /// Merged particles with a held member, at the mean height of those members.
-    fn sewn_holds(&self, member_of: &[u32]) -> Vec<Hold> {
-        let mut holds: Vec<Hold> =
-            self.holds.iter().map(|h| Hold { particle: member_of[h.particle as usize], height: h.height }).collect();
-        holds.sort_by_key(|h| h.particle);
-        holds
-            .chunk_by(|a, b| a.particle == b.particle)
-            .map(|group| Hold {
-                particle: group[0].particle,
-                height: group.iter().map(|h| h.height).sum::<f32>() / group.len() as f32,
-            })
-            .collect()
+impl Model {
+    /// The holds with merged particles, each in the first hold that has it.
+    fn sewn_holds(&self, member_of: &[u32]) -> (Vec<Hold>, Vec<u32>) {
+        let mut taken = BTreeSet::new();
+        let mut holds = Vec::new();
+        let mut held_particles = Vec::new();
+        for hold in &self.holds {
+            let members = &self.held_particles[hold.particles.start as usize..hold.particles.end as usize];
+            let first = held_particles.len() as u32;
+            held_particles.extend(members.iter().map(|&m| member_of[m as usize]).filter(|&p| taken.insert(p)));
+            let particles = first..held_particles.len() as u32;
+            if !particles.is_empty() {
+                holds.push(Hold { particles, ..hold.clone() });
+            }
+        }
+        (holds, held_particles)
+    }
+}
+
+impl Merge {
+    /// Every particle stays what it is: the handover between stages of the same model.
+    pub fn identity(particle_count: u32) -> Self {
+        Self { members: Csr::from_rows((0..particle_count).map(|i| [i])) }
     }
 }
 

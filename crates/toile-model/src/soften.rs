@@ -6,6 +6,9 @@ use toile_scene::{Rule, Settings};
 /// Steps of a frame that springs may ask for at most under a rule that holds the elongation by itself.
 const STEPS_PER_FRAME_MAX: f64 = 16.0;
 
+/// Largest ω·dt that softened links have. Stable is 2; below it, so that contacts do not excite the stiffest springs.
+const RATE_PER_STEP: f64 = 1.6;
+
 /// Longest step [s] that the links of a model must be stable at; `None` when they keep the stiffness of the fabric.
 ///
 /// What the limits carry, the springs need not: under the predictive rule a stiff fabric does not force more steps on a frame.
@@ -13,13 +16,13 @@ const STEPS_PER_FRAME_MAX: f64 = 16.0;
 /// the tension to the springs, so there the step follows the stiffness.
 pub(crate) fn step_wanted(settings: &Settings) -> Option<f64> {
     let frame = 1.0 / settings.frame_rate;
-    (settings.velocity_modification.rule == Rule::Predictive).then(|| frame / STEPS_PER_FRAME_MAX / settings.safety)
+    (settings.velocity_modification.rule == Rule::Predictive).then(|| frame / STEPS_PER_FRAME_MAX)
 }
 
 /// Makes links softer where their particles are too light for a step [s]: with Gershgorin's bound ω² ≤ 2·Σk·w the largest
 /// stable step is 2/ω. Both ends of a spring get the same stiffness.
 pub(crate) fn soften(links: &mut Csr<Link>, inverse_masses: &[f32], step: f64) {
-    let allowed = (2.0 / step).powi(2);
+    let allowed = (RATE_PER_STEP / step).powi(2);
     let factors: Vec<f64> = (0..links.row_count())
         .map(|i| {
             let stiffness: f64 = links.row(i).iter().map(|l| f64::from(l.stiffness)).sum();

@@ -27,12 +27,10 @@ pub struct StepSettings {
     pub law: Friction,
     /// Coulomb coefficient μ [1].
     pub friction: f32,
-    /// Acceleration of a held edge per metre from its height [1/s²].
-    pub hold_stiffness: f32,
-    /// Largest acceleration of a held edge [m/s²]: seams and limits are stronger.
-    pub hold_acceleration: f32,
-    /// Fastest shortening of a spring that is over-long already [m/s], under the predictive rule.
-    pub recovery_speed: f32,
+    /// Speed of a held edge towards its height, per metre from it [1/s].
+    pub hold_rate: f32,
+    /// Largest speed of a held edge towards its height [m/s].
+    pub hold_speed: f32,
     /// Rule of the velocity modification.
     pub rule: Rule,
     /// Sweeps over all limits per step.
@@ -46,7 +44,7 @@ impl StepSettings {
     /// whole number of steps makes a frame.
     pub fn new(settings: &Settings, model: &Model) -> Self {
         let frame = 1.0 / settings.frame_rate;
-        let bound = settings.safety * stable_step(model);
+        let bound = model.step_wanted.unwrap_or(f64::INFINITY).min(settings.safety * stable_step(model));
         let steps_per_frame = (frame / bound - 1e-3).ceil().max(1.0);
         Self {
             dt: (frame / steps_per_frame) as f32,
@@ -54,14 +52,13 @@ impl StepSettings {
             gravity: settings.gravity.as_vec3(),
             damping: settings.fabric.damping as f32,
             thickness: settings.fabric.thickness as f32,
-            push_speed: std::env::var("PUSH").ok().and_then(|v| v.parse().ok()).unwrap_or(0.2),
+            push_speed: 0.1,
             contact_margin: 1e-4,
             reflection: settings.reflection as f32,
             law: settings.friction,
             friction: settings.fabric.friction as f32,
-            hold_stiffness: 100.0,
-            hold_acceleration: 5.0,
-            recovery_speed: std::env::var("REC").ok().and_then(|v| v.parse().ok()).unwrap_or(0.1),
+            hold_rate: 10.0,
+            hold_speed: 0.5,
             rule: settings.velocity_modification.rule,
             sweeps: settings.velocity_modification.sweeps,
             threshold: settings.fabric.threshold as f32,

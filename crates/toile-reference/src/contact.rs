@@ -1,4 +1,4 @@
-//! The response of a point to a surface, shared by quads and particles. W §5, eq. 15.
+//! How a point answers a surface. W §5, eq. 15.
 
 use glam::Vec3;
 use toile_model::StepSettings;
@@ -28,41 +28,33 @@ pub struct Probe {
     pub hit: bool,
 }
 
-/// How a point answers a surface. The default is not at all.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Response {
-    /// Change of velocity [m/s].
-    pub change: Vec3,
-    /// Change of position that leads out of the body [m]; it does not change the velocity.
-    pub push: Vec3,
-    /// Whether the point is in contact.
-    pub touching: bool,
+/// Whether a point with velocity `velocity` [m/s] is in contact with its probe at the end of the coming move.
+pub(crate) fn touches(velocity: Vec3, probe: &Probe, settings: &StepSettings) -> bool {
+    let approach = (velocity - probe.velocity).dot(probe.normal);
+    probe.hit && probe.distance + approach * settings.dt < settings.contact_margin
 }
 
-/// The response of a point with velocity `velocity` [m/s] to its probe. W eq. 15 on the velocity relative to the surface,
-/// with the approach cut so that the coming move ends on the surface.
-pub(crate) fn response(velocity: Vec3, probe: &Probe, settings: &StepSettings) -> Response {
-    let dt = settings.dt;
-    let normal = probe.normal;
+/// By how much the normal speed of a point must grow [m/s] so that the coming move does not enter the surface, with the
+/// part of the approach that the collision gives back; 0 when it need not.
+pub(crate) fn missing_speed(velocity: Vec3, probe: &Probe, settings: &StepSettings) -> f32 {
+    let approach = (velocity - probe.velocity).dot(probe.normal);
+    let wanted = (-probe.distance / settings.dt).min(0.0);
+    if approach < wanted { wanted.max(-(settings.reflection * approach)) - approach } else { 0.0 }
+}
+
+/// Change of velocity [m/s] when the normal speed of a point grows by `gain` [m/s], with the friction that goes with it.
+/// W eq. 15 on the velocity relative to the surface.
+pub(crate) fn change(velocity: Vec3, probe: &Probe, gain: f32, settings: &StepSettings) -> Vec3 {
     let relative = velocity - probe.velocity;
-    let approach = relative.dot(normal);
-    if !(probe.hit && probe.distance + approach * dt < settings.contact_margin) {
-        return Response::default();
-    }
-    let push = normal * (-probe.distance).max(0.0).min(settings.push_speed * dt);
-    let wanted = (-probe.distance / dt).min(0.0);
-    if !(approach < wanted) {
-        return Response { change: Vec3::ZERO, push, touching: true };
-    }
-    let rebound = wanted.max(-(settings.reflection * approach));
-    let tangential = relative - normal * approach;
+    let approach = relative.dot(probe.normal);
+    let tangential = relative - probe.normal * approach;
     let slip = match settings.law {
         Friction::Papers { velocity_kept, .. } => tangential * velocity_kept as f32,
         Friction::Coulomb => {
             let speed = tangential.length();
-            let limit = settings.friction * (rebound - approach);
-            if speed > limit { tangential * ((speed - limit) / speed) } else { Vec3::ZERO }
+            let stopped = settings.friction * gain;
+            if speed > stopped { tangential * ((speed - stopped) / speed) } else { Vec3::ZERO }
         }
     };
-    Response { change: (slip + normal * rebound) - relative, push, touching: true }
+    (slip + probe.normal * (approach + gain)) - relative
 }

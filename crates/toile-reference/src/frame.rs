@@ -17,10 +17,10 @@ pub use state_copy::state_copy;
 pub use total_energy::total_energy;
 
 /// Particles whose energies are summed together: the workgroup of the GPU's reduction. The order of a sum is part of it.
-const GROUP: usize = 64;
+pub(crate) const GROUP: usize = 64;
 
 /// Sum of a group, by halves.
-fn tree_sum(mut values: [f32; GROUP]) -> f32 {
+pub(crate) fn tree_sum(mut values: [f32; GROUP]) -> f32 {
     let mut stride = GROUP / 2;
     while stride > 0 {
         for i in 0..stride {

@@ -15,7 +15,7 @@ mod particles;
 mod reference;
 pub mod step;
 
-pub use contact::{Contact, Probe, Response};
+pub use contact::{Contact, Probe};
 pub use exact_distance::{ExactDistance, PenetrationSummary};
 pub use particles::{Ball, Midpoints, Particles};
 pub use reference::{Colliders, Reference};

@@ -1,7 +1,7 @@
 //! The life of the GPU simulation on the CPU.
 
 use crate::maps::BodyMaps;
-use crate::{Ball, Contact, Midpoints, Particles, Probe, digest, frame, step};
+use crate::{Ball, Contact, Particles, Probe, digest, frame, step};
 use glam::Vec3;
 use toile_model::{Merge, Model, Status, StepSettings};
 use toile_scene::{Rule, Sphere};
@@ -42,8 +42,8 @@ pub struct Colliders {
 ///     reflection: 0.0,
 ///     law: Friction::Coulomb,
 ///     friction: 0.3,
-///     hold_stiffness: 100.0,
-///     hold_acceleration: 5.0,
+///     hold_rate: 10.0,
+///     hold_speed: 0.5,
 ///     rule: Rule::Predictive,
 ///     sweeps: 1,
 ///     threshold: 0.05,
@@ -99,7 +99,7 @@ impl Reference {
             step::reaction(&mut forces, particles, &self.contacts, settings);
         }
         step::euler(&mut particles.velocities, &forces, &particles.inverse_masses, dt);
-        step::hold_edges(particles, &model.holds, settings);
+        step::hold_edges(particles, &model.holds, &model.held_particles, settings);
         for _ in 0..settings.sweeps {
             self.sweep_velocities();
         }
@@ -107,6 +107,12 @@ impl Reference {
             self.collide();
         }
         let Self { model, settings, particles, .. } = self;
+        for _ in 0..settings.sweeps {
+            for colour in &model.seam_colours {
+                let pairs = &model.seam_pairs[colour.start as usize..colour.end as usize];
+                step::close_seams(particles, pairs, dt);
+            }
+        }
         step::move_particles(&mut particles.positions, &particles.velocities, dt);
         if settings.rule == Rule::Position {
             for _ in 0..settings.sweeps {
@@ -119,13 +125,9 @@ impl Reference {
         self.step += 1;
     }
 
-    /// One sweep over all seams and limits, colour by colour.
+    /// One sweep over all limits, colour by colour.
     fn sweep_velocities(&mut self) {
         let Self { model, settings, particles, contacts, .. } = self;
-        for colour in &model.seam_colours {
-            let pairs = &model.seam_pairs[colour.start as usize..colour.end as usize];
-            step::close_seams(particles, pairs, settings.dt);
-        }
         let contacts = (!contacts.is_empty()).then_some(contacts.as_slice());
         for colour in &model.limit_colours {
             let limits = &model.limits[colour.start as usize..colour.end as usize];
@@ -140,13 +142,12 @@ impl Reference {
     }
 
     fn collide(&mut self) {
-        let Midpoints { positions, velocities } =
-            step::quad_midpoints(&self.particles.positions, &self.particles.velocities, &self.model.quads);
-        let quad_probes = self.probes(&positions, &velocities);
-        let probes = self.probes(&self.particles.positions, &self.particles.velocities);
-        let responses = step::quad_responses(&Midpoints { positions, velocities }, &quad_probes, &self.settings);
+        let midpoints = step::quad_midpoints(&self.particles.positions, &self.particles.velocities, &self.model.quads);
+        let quads = self.probes(&midpoints.positions, &midpoints.velocities);
+        let own = self.probes(&self.particles.positions, &self.particles.velocities);
+        let probes = step::Probes { particles: &own, quads: &quads };
         self.contacts =
-            step::collide(&mut self.particles, &self.model.particle_quads, &probes, &responses, &self.settings);
+            step::collide(&mut self.particles, &self.model.particle_quads, &midpoints, probes, &self.settings);
     }
 
     fn probes(&self, positions: &[Vec3], velocities: &[Vec3]) -> Vec<Probe> {

@@ -13,7 +13,9 @@ pub enum Error {
     #[error(transparent)]
     Model(#[from] toile_model::ModelError),
     /// The state is not finite.
-    #[error("the simulation diverged: {count} particles are not finite at step {step}, the first is particle {particle}; use the default rule, softer springs or a smaller safety factor")]
+    #[error(
+        "the simulation diverged: {count} particles are not finite at step {step}, the first is particle {particle}; use the default rule, softer springs or a smaller safety factor"
+    )]
     Diverged {
         /// Step at which it was seen.
         step: u64,

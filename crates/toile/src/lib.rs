@@ -14,3 +14,8 @@ pub use toile_files as files;
 pub use toile_gpu as gpu;
 pub use toile_model as model;
 pub use toile_scene as scene;
+
+/// Compiles the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;

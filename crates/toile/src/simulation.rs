@@ -1,8 +1,9 @@
 //! One cloth, simulated on the caller's device.
 
 use crate::{Error, Frame};
+use std::collections::BTreeMap;
 use std::sync::Arc;
-use toile_gpu::{BodyMaps, Plan, Solver, Timer};
+use toile_gpu::{BodyMaps, Kernel, PassTime, Plan, Solver, Timer};
 use toile_model::{Merge, Model, Status, StepSettings};
 use toile_scene::Sphere;
 use wgpu::util::DeviceExt;
@@ -23,7 +24,7 @@ pub struct Colliders {
 /// # -> Result<(), toile::Error> {
 /// use toile::model::{Model, StepSettings};
 ///
-/// let model = Model::from_sheet(sheet, settings)?;
+/// let model = Model::from_sheet(sheet, settings);
 /// let step = StepSettings::new(settings, &model);
 /// let mut simulation = toile::Simulation::new(device, &model, &step, Default::default())?;
 /// for _ in 0..60 {
@@ -116,9 +117,18 @@ impl Simulation {
         Ok(status)
     }
 
-    /// Records one step with a timestamp around each pass, for measuring only.
-    pub fn record_timed_step(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, timer: &mut Timer) {
-        self.solver.record_timed_step(device, encoder, timer);
+    /// Does one step pass by pass and says what each kernel cost, beside a copy of the whole state: the unit in which costs are
+    /// told. For measuring only: it submits, and waits after every dispatch.
+    ///
+    /// # Errors
+    /// [`Error::Gpu`] when the device is lost.
+    pub fn time_step(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        timer: &Timer,
+    ) -> Result<BTreeMap<Kernel, PassTime>, Error> {
+        Ok(self.solver.time_step(device, queue, timer)?)
     }
 
     /// The passes of a step and of a frame.

@@ -1,11 +1,14 @@
 //! The two commands of the README: they set up what a fresh machine lacks, then do their work.
 //!
-//! `cargo xtask dress …` is `toile dress …`; `cargo xtask test` checks the format, lints and runs every test.
+//! `cargo xtask dress …` is `toile dress …`; `cargo xtask test` checks the format, lints, builds the documentation and runs
+//! every test. CI runs the same.
 
 use std::env;
 use std::fs;
-use std::process::{Command, ExitCode};
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode, Stdio};
 
+/// A Vulkan driver that works on the CPU, and the library that finds it.
 const PACKAGES: [&str; 2] = ["mesa-vulkan-drivers", "libvulkan1"];
 
 fn main() -> ExitCode {
@@ -27,66 +30,79 @@ fn main() -> ExitCode {
 /// Dresses the built-in body in the built-in dress, or what the options say.
 fn dress(options: &[String]) -> Result<(), String> {
     cargo(&["build", "--release", "--package", "toile-cli"])?;
-    // The reference needs no adapter.
-    if !options.iter().any(|option| option.contains("reference")) {
-        ensure_adapter("release")?;
+    let toile = built("release")?;
+    // The reference needs no adapter, and help needs nothing.
+    if !options.iter().any(|option| option.contains("reference") || option == "--help" || option == "-h") {
+        ensure_adapter(&toile)?;
     }
-    let mut arguments = vec!["run", "--quiet", "--release", "--package", "toile-cli", "--", "dress"];
-    arguments.extend(options.iter().map(String::as_str));
-    cargo(&arguments)
+    let mut command = Command::new(toile);
+    command.arg("dress").args(options);
+    run(command)
 }
 
-/// Everything that must hold before a change lands.
+/// Everything that must hold before a change lands. Lints and documentation share one build of the dependencies, the tests
+/// and the program another; each is built for the whole workspace, because a part of it would ask for other features.
 fn test() -> Result<(), String> {
     cargo(&["fmt", "--all", "--check"])?;
     cargo(&["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"])?;
-    cargo(&["build", "--package", "toile-cli"])?;
-    ensure_adapter("debug")?;
+    let mut documentation = command(&cargo_path(), &["doc", "--workspace", "--no-deps", "--document-private-items"]);
+    documentation.env("RUSTDOCFLAGS", "--deny warnings");
+    run(documentation)?;
+    cargo(&["test", "--workspace", "--no-run"])?;
+    ensure_adapter(&built("debug")?)?;
     cargo(&["test", "--workspace"])
 }
 
+/// The program that cargo built beside this one.
+fn built(profile: &str) -> Result<PathBuf, String> {
+    let own = env::current_exe().map_err(|error| format!("where this program lies is not known: {error}"))?;
+    let target = own.ancestors().nth(2).ok_or("this program does not lie in a target folder")?;
+    Ok(target.join(profile).join("toile").with_extension(env::consts::EXE_EXTENSION))
+}
+
 /// Installs a Vulkan driver that works on the CPU where there is no adapter and this machine can, or says what to run.
-fn ensure_adapter(profile: &str) -> Result<(), String> {
-    if has_adapter(profile)? {
+fn ensure_adapter(toile: &Path) -> Result<(), String> {
+    if has_adapter(toile)? {
         return Ok(());
     }
-    println!("no adapter found");
-    let manual = format!("apt-get install -y {}", PACKAGES.join(" "));
+    println!("no adapter found: a Vulkan driver that works on the CPU is installed");
+    let manual = format!("apt-get update && apt-get install -y {}", PACKAGES.join(" "));
     let debian = fs::read_to_string("/etc/os-release").is_ok_and(|text| text.contains("debian"));
     if !debian {
         return Err(format!("install a Vulkan driver; on Debian or Ubuntu: {manual}"));
     }
-    let prefix: &[&str] = match command("id", &["-u"]).output() {
-        Ok(output) if output.stdout.trim_ascii() == b"0" => &[],
-        _ => &["sudo", "--non-interactive"],
-    };
+    let root = matches!(command("id", &["-u"]).output(), Ok(output) if output.stdout.trim_ascii() == b"0");
     let apt = |arguments: &[&str]| {
-        let whole: Vec<&str> = prefix.iter().chain(&["apt-get"]).chain(arguments).copied().collect();
-        run(command(whole[0], &whole[1..]))
+        let words = if root { vec!["apt-get"] } else { vec!["sudo", "--non-interactive", "apt-get"] };
+        let words = [&words, arguments].concat();
+        let mut command = command(words[0], &words[1..]);
+        command.env("DEBIAN_FRONTEND", "noninteractive").stdin(Stdio::null());
+        run(command)
     };
-    let mut install = vec!["install", "-y"];
-    install.extend(PACKAGES);
-    apt(&["update"]).and_then(|()| apt(&install)).map_err(|error| format!("{error}; run as root: {manual}"))?;
-    match has_adapter(profile)? {
+    apt(&["update"])
+        .and_then(|()| apt(&[&["install", "--yes", "--no-install-recommends"], &PACKAGES[..]].concat()))
+        .map_err(|error| format!("{error}; run as root: {manual}"))?;
+    match has_adapter(toile)? {
         true => Ok(()),
-        false => Err("a Vulkan driver is installed, but no adapter is found; `toile adapters` lists what there is".to_owned()),
+        false => Err("a Vulkan driver is installed, but no adapter is found; `toile adapters` says why".to_owned()),
     }
 }
 
-/// Whether the program that was just built finds an adapter.
-fn has_adapter(profile: &str) -> Result<bool, String> {
-    let quiet: &[&str] = if profile == "release" { &["--release"] } else { &[] };
-    let mut arguments = vec!["run", "--quiet"];
-    arguments.extend(quiet);
-    arguments.extend(["--package", "toile-cli", "--", "adapters"]);
-    let status = command(&cargo_path(), &arguments).status().map_err(|error| format!("cargo: {error}"))?;
-    Ok(status.success())
+/// Whether the program finds an adapter that it can use; it lists what it finds.
+fn has_adapter(toile: &Path) -> Result<bool, String> {
+    let mut command = command(&toile.display().to_string(), &["adapters"]);
+    println!("$ {command:?}");
+    match command.stderr(Stdio::null()).status() {
+        Ok(status) => Ok(status.success()),
+        Err(error) => Err(format!("{} cannot be run: {error}", toile.display())),
+    }
 }
 
 fn cargo(arguments: &[&str]) -> Result<(), String> {
     run(command(&cargo_path(), arguments))
 }
 
+/// The cargo that runs this program.
 fn cargo_path() -> String {
     env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned())
 }
@@ -97,6 +113,7 @@ fn command(program: &str, arguments: &[&str]) -> Command {
     command
 }
 
+/// Runs a command after saying which.
 fn run(mut command: Command) -> Result<(), String> {
     println!("$ {command:?}");
     match command.status() {

@@ -2,6 +2,7 @@
 
 use crate::adapter;
 use crate::args::Adapters;
+use crate::commands::print;
 use anyhow::{Result, bail};
 use serde_json::json;
 
@@ -31,10 +32,10 @@ pub fn run(arguments: &Adapters) -> Result<()> {
                 })
             })
             .collect();
-        println!("{}", serde_json::to_string_pretty(&rows)?);
+        print(&serde_json::to_string_pretty(&rows)?)?;
     } else {
         for (info, timestamps, webgpu) in &rows {
-            println!(
+            print(&format!(
                 "{} · {} · {:?} · {} {}{}{}",
                 info.name,
                 info.backend,
@@ -43,7 +44,7 @@ pub fn run(arguments: &Adapters) -> Result<()> {
                 info.driver_info,
                 if *timestamps { " · timestamps" } else { "" },
                 if *webgpu { "" } else { " · not usable: no compute" },
-            );
+            ))?;
         }
     }
     if rows.iter().all(|(_, _, webgpu)| !webgpu) {

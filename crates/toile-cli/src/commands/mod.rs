@@ -8,6 +8,7 @@ mod run;
 
 use crate::args::Command;
 use anyhow::Result;
+use std::io::{self, ErrorKind, Write};
 
 /// Does what the user typed.
 pub fn run(command: &Command) -> Result<()> {
@@ -16,5 +17,13 @@ pub fn run(command: &Command) -> Result<()> {
         Command::Run(arguments) => run::run(arguments),
         Command::Plan(arguments) => plan::run(arguments),
         Command::Adapters(arguments) => adapters::run(arguments),
+    }
+}
+
+/// Prints a line of the result. A reader that has read enough, such as `head`, is no error.
+pub fn print(text: &str) -> Result<()> {
+    match writeln!(io::stdout(), "{text}") {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(error.into()),
+        _ => Ok(()),
     }
 }

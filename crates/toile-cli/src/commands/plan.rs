@@ -1,9 +1,164 @@
-//! `toile plan`.
+//! `toile plan`: what a scene gets, without an adapter.
 
 use crate::args::PlanOf;
+use crate::commands::{outfit, print};
+use crate::simulate::sphere;
 use anyhow::Result;
+use glam::Vec3;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::fmt;
+use toile::files::read_scene;
+use toile::gpu::{BodyMaps, Pass, Plan};
+use toile::model::{MapFrame, Model, Needs, StepSettings};
+use toile::scene::{Body, Cloth, Scene};
 
-/// Prints the passes of a scene.
-pub fn run(_arguments: &PlanOf) -> Result<()> {
-    Ok(())
+/// Prints passes, dispatches and bytes of every cloth of a scene.
+pub fn run(arguments: &PlanOf) -> Result<()> {
+    let file = match &arguments.scene {
+        Some(path) => read_scene(path, &arguments.set)?,
+        None => outfit::read(&arguments.outfit)?,
+    };
+    let plans = plans(&file.scene)?;
+    if arguments.json {
+        print(&serde_json::to_string_pretty(&plans)?)
+    } else {
+        plans.iter().try_for_each(|plan| print(&plan.to_string()))
+    }
+}
+
+/// What one model of a cloth gets.
+#[derive(Serialize)]
+struct ClothPlan {
+    name: String,
+    /// "open" and "sewn" for a garment, "sheet" for a sheet.
+    state: &'static str,
+    particle_count: u32,
+    spring_count: u32,
+    quad_count: u32,
+    colour_count: u32,
+    steps_per_frame: u32,
+    step: Vec<KernelPlan>,
+    frame: Vec<KernelPlan>,
+    buffers: BTreeMap<String, u64>,
+    bytes: u64,
+    bytes_per_particle: f64,
+    /// Shared by both models of a garment, and not counted in `bytes`.
+    map_bytes: u64,
+}
+
+/// All dispatches of a kernel in a row.
+#[derive(Serialize)]
+struct KernelPlan {
+    kernel: &'static str,
+    dispatches: usize,
+    items: u32,
+}
+
+/// The plans of all cloths in the order of dressing; a garment has one for sewing and one for draping.
+fn plans(scene: &Scene) -> Result<Vec<ClothPlan>> {
+    let sphere = sphere(scene)?.is_some();
+    let mut bounds = bounds(scene);
+    let mut plans = Vec::new();
+    for cloth in &scene.cloths {
+        let (name, models) = match cloth {
+            Cloth::Sheet(sheet) => (&sheet.name, vec![("sheet", Model::from_sheet(sheet, &scene.settings))]),
+            Cloth::Garment(garment) => {
+                let open = Model::from_garment(garment, &scene.settings)?;
+                let (sewn, _) = open.sewn();
+                (&garment.name, vec![("open", open), ("sewn", sewn)])
+            }
+        };
+        let map_bytes = bounds.map_or(0, |b| BodyMaps::bytes_over(&MapFrame::around(b, scene.settings.texel as f32)));
+        for (state, model) in &models {
+            let settings = StepSettings::new(&scene.settings, model);
+            let needs = Needs::new(model, &settings, bounds.is_some(), sphere);
+            plans.push(ClothPlan::new(name, state, model, &settings, &needs, map_bytes));
+        }
+        // A later cloth lies over this one. Where it will hang is not known; near the body it changes little.
+        bounds = bounds.or_else(|| around(models.iter().flat_map(|(_, model)| &model.positions)));
+    }
+    Ok(plans)
+}
+
+/// The box that the maps are drawn around [m]; `None` without a mesh body.
+fn bounds(scene: &Scene) -> Option<[Vec3; 2]> {
+    let thickness = scene.settings.fabric.thickness as f32;
+    let corners: Vec<Vec3> = scene
+        .bodies
+        .iter()
+        .filter_map(|body| match body {
+            Body::Mesh(mesh) => mesh.bounds(),
+            Body::Sphere(_) => None,
+        })
+        .flat_map(|[low, high]| [low - thickness, high + thickness])
+        .collect();
+    around(&corners)
+}
+
+fn around<'a>(points: impl IntoIterator<Item = &'a Vec3>) -> Option<[Vec3; 2]> {
+    points.into_iter().map(|p| [*p, *p]).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
+}
+
+impl ClothPlan {
+    fn new(
+        name: &str,
+        state: &'static str,
+        model: &Model,
+        settings: &StepSettings,
+        needs: &Needs,
+        map_bytes: u64,
+    ) -> Self {
+        let plan = Plan::new(model, needs, settings.sweeps);
+        let mut buffers = plan.buffer_sizes(model, settings);
+        buffers.insert("indices".to_owned(), 12 * model.triangles().len() as u64);
+        let bytes = buffers.values().sum();
+        Self {
+            name: name.to_owned(),
+            state,
+            particle_count: model.particle_count(),
+            spring_count: model.spring_count(),
+            quad_count: model.quad_count(),
+            colour_count: model.colour_count(),
+            steps_per_frame: settings.steps_per_frame,
+            step: kernels(&plan.step),
+            frame: kernels(&plan.frame),
+            bytes_per_particle: bytes as f64 / f64::from(model.particle_count().max(1)),
+            buffers,
+            bytes,
+            map_bytes,
+        }
+    }
+}
+
+fn kernels(passes: &[Pass]) -> Vec<KernelPlan> {
+    let run = |run: &[Pass]| KernelPlan {
+        kernel: run[0].kernel.name(),
+        dispatches: run.len(),
+        items: run.iter().map(|pass| pass.items.end - pass.items.start).sum(),
+    };
+    passes.chunk_by(|a, b| a.kernel == b.kernel).map(run).collect()
+}
+
+impl fmt::Display for ClothPlan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}, {}", self.name, self.state)?;
+        writeln!(
+            f,
+            "  {} particles, {} quads, {} springs, limits in {} colours, {} steps per frame",
+            self.particle_count, self.quad_count, self.spring_count, self.colour_count, self.steps_per_frame
+        )?;
+        for (title, kernels) in [("step", &self.step), ("frame", &self.frame)] {
+            let dispatches: usize = kernels.iter().map(|kernel| kernel.dispatches).sum();
+            writeln!(f, "  {title}: {dispatches} dispatches")?;
+            for KernelPlan { kernel, dispatches, items } in kernels {
+                writeln!(f, "    {kernel:<22} {dispatches:>4} × {items} items")?;
+            }
+        }
+        writeln!(f, "  buffers: {} bytes, {:.1} per particle", self.bytes, self.bytes_per_particle)?;
+        for (name, bytes) in &self.buffers {
+            writeln!(f, "    {name:<22} {bytes:>12}")?;
+        }
+        write!(f, "  maps: {} bytes", self.map_bytes)
+    }
 }

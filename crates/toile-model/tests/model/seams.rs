@@ -213,18 +213,13 @@ fn labelled_edges_are_held_once_at_their_height() {
     garment.panels[0].edges[2].label = Some("waist".into());
     garment.panels[0].edges[3].label = Some("side".into());
     garment.panels[0].placement.translation.y = 1.0;
-    let (open, sewn, merge) = sewn(&garment, 0.05);
+    let (open, sewn, _) = sewn(&garment, 0.05);
     assert_eq!(open.holds.len(), 7 + 4);
     for hold in &open.holds {
         assert_eq!(hold.height, open.positions[hold.particle as usize].y);
     }
     assert!(open.holds.windows(2).all(|h| h[0].particle < h[1].particle));
-    // Of a merged particle only the held member counts: the back lies a metre lower.
-    assert_eq!(sewn.holds.len(), 11);
-    let corner = sewn_at(&open, &merge, 0, dvec2(0.0, 0.2));
-    let hold = sewn.holds.iter().find(|h| h.particle == corner).unwrap();
-    assert!((hold.height - 1.2).abs() < 1e-6);
-    assert!(sewn.positions[corner as usize].y < 1.0);
+    assert!(sewn.holds.is_empty(), "a sewn garment is held by the body alone");
 }
 
 #[test]
@@ -260,16 +255,4 @@ fn a_corner_between_two_seams_is_one_pair() {
     let open = build(&garment(squares, &[([0, 1], [1, 1]), ([0, 2], [1, 2])]), 0.05);
     assert_eq!(open.seam_pairs.len(), 5);
     check_model(&open);
-}
-
-#[test]
-fn held_members_of_a_merged_particle_are_held_at_their_mean_height() {
-    let mut garment = tube();
-    garment.panels[0].edges[1].label = Some("side".into());
-    garment.panels[1].edges[1].label = Some("side".into());
-    garment.panels[0].placement.translation.y = 0.02;
-    let (open, sewn, merge) = sewn(&garment, 0.05);
-    let corner = sewn_at(&open, &merge, 0, dvec2(0.3, 0.2));
-    let hold = sewn.holds.iter().find(|h| h.particle == corner).unwrap();
-    assert!((hold.height - 0.21).abs() < 1e-6, "{hold:?}");
 }

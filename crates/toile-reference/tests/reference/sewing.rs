@@ -28,18 +28,20 @@ fn a_seam_closes_at_its_speed_and_stays_closed() {
 }
 
 #[test]
-fn a_held_particle_returns_to_its_height_at_the_hold_speed() {
+fn held_edges_return_to_their_mean_height_and_stay_free_within() {
     let settings = settings();
     let mut particles = Particles::new(&two_particles());
-    particles.positions[0].y = 1.0;
-    let holds = [Hold { particle: 0, height: 0.999 }, Hold { particle: 1, height: 10.0 }];
-    particles.velocities = vec![vec3(1.0, 7.0, 2.0); 2];
-    step::hold_edges(&mut particles, &holds, &settings);
-    assert_eq!(particles.velocities[1], vec3(1.0, 0.5, 2.0));
-    assert!(particles.velocities[0].y < 0.0 && particles.velocities[0].y >= -0.5);
-    step::hold_edges(&mut particles, &[Hold { particle: 0, height: 0.9999 }], &settings);
-    step::move_particles(&mut particles.positions, &particles.velocities, settings.dt);
-    assert!((particles.positions[0].y - 0.9999).abs() < 1e-6);
+    particles.positions = vec![vec3(0.0, 1.0, 0.0), vec3(0.3, 1.2, 0.0)];
+    particles.velocities = vec![vec3(1.0, 7.0, 2.0), vec3(0.0, 1.0, 0.0)];
+    let holds = [Hold { label: "waist".into(), particles: 0..2, height: 1.08 }];
+    step::hold_edges(&mut particles, &holds, &[0, 1], &settings);
+    let [a, b] = [particles.velocities[0], particles.velocities[1]];
+    assert!((0.5 * (a.y + b.y) + 0.02 * settings.hold_rate).abs() < 1e-5, "the mean sinks towards the height");
+    assert!((a.y - b.y - 6.0).abs() < 1e-5, "what they do against each other stays");
+    assert_eq!([a.x, a.z, b.x, b.z], [1.0, 2.0, 0.0, 0.0]);
+    let far = [Hold { label: "waist".into(), particles: 0..2, height: 9.0 }];
+    step::hold_edges(&mut particles, &far, &[0, 1], &settings);
+    assert!((0.5 * (particles.velocities[0].y + particles.velocities[1].y) - settings.hold_speed).abs() < 1e-5);
 }
 
 #[test]

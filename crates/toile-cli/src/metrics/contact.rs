@@ -1,0 +1,76 @@
+//! How a cloth lies on what it wears under it: exact distances in f64, not those of the maps.
+
+use super::measures::max_and_p99;
+use crate::worn::Worn;
+use glam::DVec3;
+use toile::scene::{Body, Mesh, Sphere};
+use toile_reference::ExactDistance;
+
+/// Everything that a cloth can touch. Built once per run; each finished garment is added for the next one.
+pub struct Surfaces {
+    /// Distance that the cloth keeps from all of them [m].
+    thickness: f64,
+    bodies: Vec<Exact>,
+    garments: Vec<ExactDistance>,
+}
+
+/// What is measured of a cloth against them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// Deepest particle below the surface of a body [m], negative when all are outside.
+    pub penetration_max: f64,
+    /// 99th percentile of it [m].
+    pub penetration_p99: f64,
+    /// Part of the particles that count as touching although they are far from every surface.
+    pub false_fraction: f64,
+}
+
+enum Exact {
+    Mesh(Box<ExactDistance>),
+    Sphere(Sphere),
+}
+
+impl Exact {
+    /// How deep a point [m] is inside at a time [s], negative outside [m].
+    fn penetration(&self, point: DVec3, time: f64) -> f64 {
+        match self {
+            Self::Mesh(mesh) => mesh.penetration(point),
+            Self::Sphere(sphere) => sphere.radius - point.distance(sphere.at(time).0),
+        }
+    }
+}
+
+impl Surfaces {
+    /// The bodies of a scene; cloth keeps `thickness` [m] from them and from garments below it.
+    pub fn new(bodies: &[Body], thickness: f64) -> Self {
+        let exact = |body: &Body| match body {
+            Body::Mesh(mesh) => Exact::Mesh(Box::new(ExactDistance::new(mesh))),
+            Body::Sphere(sphere) => Exact::Sphere(*sphere),
+        };
+        Self { thickness, bodies: bodies.iter().map(exact).collect(), garments: Vec::new() }
+    }
+
+    /// A garment that later ones lie over.
+    pub fn add_garment(&mut self, mesh: &Mesh) {
+        self.garments.push(ExactDistance::new(mesh));
+    }
+
+    /// Measures a cloth; `None` without a body. `texel` is that of the maps [m].
+    pub fn measure(&self, worn: &Worn, texel: f32) -> Option<Contact> {
+        let time = worn.status.step as f64 * f64::from(worn.settings.dt);
+        let points = || worn.mesh.positions.iter().map(|p| p.as_dvec3());
+        let depth = |point| self.bodies.iter().map(|body| body.penetration(point, time)).reduce(f64::max);
+        let depths: Vec<f64> = points().filter_map(depth).collect();
+        let reach = self.thickness + 2.0 * f64::from(texel);
+        // A garment has two sides, so only its distance counts.
+        let near = |point| self.garments.iter().any(|garment| garment.penetration(point).abs() <= reach);
+        let false_count = points()
+            .zip(&depths)
+            .zip(&worn.touching)
+            .filter(|((point, depth), touching)| **touching && **depth < -reach && !near(*point))
+            .count();
+        let false_fraction = false_count as f64 / depths.len() as f64;
+        let [penetration_max, penetration_p99] = max_and_p99(depths)?;
+        Some(Contact { penetration_max, penetration_p99, false_fraction })
+    }
+}

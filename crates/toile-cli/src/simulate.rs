@@ -1,0 +1,94 @@
+//! A whole run: every cloth of a scene one after another, then the files and the metrics.
+
+use crate::adapter;
+use crate::args::{Backend, Running};
+use crate::commands::print;
+use crate::engine::{Computer, Layer};
+use crate::metrics::{ClothMetrics, Measures, Metrics, Surfaces};
+use crate::output::{self, Shown};
+use crate::sphere_mesh::sphere_mesh;
+use crate::worn::{self, Surroundings, Worn};
+use anyhow::{Result, bail};
+use toile::files::SceneFile;
+use toile::model::Model;
+use toile::scene::{Body, Cloth, Scene, Sphere};
+
+/// Simulates a scene: garments are dressed one after another, sheets run for a number of frames. Writes the results.
+pub fn simulate(file: &SceneFile, running: &Running) -> Result<()> {
+    let scene = &file.scene;
+    output::check(&running.out)?;
+    let sphere = sphere(scene)?;
+    if !running.quiet {
+        for warning in &file.warnings {
+            eprintln!("warning: {warning}");
+        }
+    }
+    let computer = match running.place.backend {
+        Backend::Gpu => Computer::Gpu(adapter::open(&running.place)?),
+        Backend::Reference => Computer::Reference,
+    };
+    let thickness = scene.settings.fabric.thickness as f32;
+    let texel = scene.settings.texel as f32;
+    let mut layers: Vec<Layer> = meshes(scene).map(|mesh| Layer { mesh: mesh.clone(), thickness }).collect();
+    let mut surfaces = Surfaces::new(&scene.bodies, scene.settings.fabric.thickness);
+    let mut all: Vec<Worn> = Vec::new();
+    let mut measured = Vec::new();
+    for cloth in &scene.cloths {
+        let around = Surroundings { computer: &computer, layers: &layers, sphere, texel, quiet: running.quiet };
+        let worn = match cloth {
+            Cloth::Garment(garment) => worn::dress(garment, &scene.settings, &around)?,
+            Cloth::Sheet(sheet) => {
+                let model = Model::from_sheet(sheet, &scene.settings);
+                worn::run(&sheet.name, model, file.frames, &scene.settings, &around)?
+            }
+        };
+        measured.push(ClothMetrics { name: worn.name.clone(), measures: Measures::new(&worn, &surfaces, texel) });
+        if all.len() + 1 < scene.cloths.len() {
+            surfaces.add_garment(&worn.mesh);
+            layers.push(Layer { mesh: worn.mesh.clone(), thickness });
+        }
+        all.push(worn);
+    }
+    let metrics = Metrics::new(&scene.name, computer.name(), measured);
+    let ball = sphere.map(|sphere| sphere_mesh(sphere.at(end(&all)).0, sphere.radius));
+    let mut bodies: Vec<Shown<'_>> = meshes(scene).map(|mesh| Shown { name: "body", mesh }).collect();
+    bodies.extend(ball.as_ref().map(|mesh| Shown { name: "sphere", mesh }));
+    let cloths: Vec<Shown<'_>> = all.iter().map(|worn| Shown { name: &worn.name, mesh: &worn.mesh }).collect();
+    output::write(&running.out, &bodies, &cloths, &metrics)?;
+    if running.json {
+        print(&serde_json::to_string_pretty(&metrics)?)?;
+    } else if !running.quiet {
+        for cloth in &metrics.cloths {
+            print(&cloth.line())?;
+        }
+        print(&format!("wrote {}", running.out.display()))?;
+    }
+    Ok(())
+}
+
+/// The mesh bodies of a scene.
+fn meshes(scene: &Scene) -> impl Iterator<Item = &toile::scene::Mesh> {
+    scene.bodies.iter().filter_map(|body| match body {
+        Body::Mesh(mesh) => Some(mesh),
+        Body::Sphere(_) => None,
+    })
+}
+
+/// The sphere of a scene. The kernels know one; a second one would silently be missing.
+pub fn sphere(scene: &Scene) -> Result<Option<Sphere>> {
+    let mut spheres = scene.bodies.iter().filter_map(|body| match body {
+        Body::Sphere(sphere) => Some(*sphere),
+        Body::Mesh(_) => None,
+    });
+    match (spheres.next(), spheres.count()) {
+        (first, 0) => Ok(first),
+        (_, more) => {
+            bail!("scene {} has {} spheres, and a scene can have one: remove the others", scene.name, more + 1)
+        }
+    }
+}
+
+/// Simulated time at the end of the last cloth [s].
+fn end(all: &[Worn]) -> f64 {
+    all.last().map_or(0.0, |worn| worn.status.step as f64 * f64::from(worn.settings.dt))
+}

@@ -1,0 +1,285 @@
+//! The program from outside, as a person or a script meets it.
+
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use tempfile::TempDir;
+
+/// The files of every run.
+const FILES: [&str; 6] = ["back.png", "dressed.glb", "front.png", "garment.obj", "metrics.json", "side.png"];
+
+/// Calls of the program in an empty folder, on a machine without a session.
+struct Journey {
+    folder: TempDir,
+}
+
+impl Journey {
+    fn new() -> Self {
+        Self { folder: TempDir::new().expect("a temporary folder") }
+    }
+
+    fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_toile"));
+        command.args(arguments).current_dir(&self.folder);
+        command.env_remove("XDG_RUNTIME_DIR").env_remove("NODEVICE_SELECT");
+        command
+    }
+
+    fn run(&self, arguments: &[&str]) -> Output {
+        self.command(arguments).output().expect("the program starts")
+    }
+
+    /// Names of everything in a folder of it, sorted.
+    fn names(&self, below: &str) -> Vec<String> {
+        let entries = fs::read_dir(self.folder.path().join(below)).expect("a folder");
+        let mut names: Vec<_> =
+            entries.map(|entry| entry.expect("an entry").file_name().into_string().expect("a plain name")).collect();
+        names.sort();
+        names
+    }
+
+    fn metrics(&self, folder: &str) -> Value {
+        json(&fs::read_to_string(self.folder.path().join(folder).join("metrics.json")).expect("the metrics"))
+    }
+}
+
+fn fixture(path: &str) -> String {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures");
+    root.canonicalize().expect("the fixtures").join(path).display().to_string()
+}
+
+/// The output of a run that succeeds and says nothing beside it.
+fn good(output: Output) -> String {
+    let said = String::from_utf8(output.stderr).expect("UTF-8 text");
+    assert_eq!((output.status.code(), said.as_str()), (Some(0), ""));
+    String::from_utf8(output.stdout).expect("UTF-8 text")
+}
+
+/// The one sentence of a run that fails.
+fn refused(output: Output) -> String {
+    let said = String::from_utf8(output.stderr).expect("UTF-8 text");
+    assert_eq!((output.status.code(), output.stdout.as_slice()), (Some(2), &[][..]), "{said}");
+    let sentence = said.strip_prefix("error: ").unwrap_or_else(|| panic!("no sentence of an error: {said}"));
+    assert_eq!(sentence.lines().count(), 1, "{said}");
+    sentence.trim_end().to_owned()
+}
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
+}
+
+fn list(value: &Value) -> &[Value] {
+    value.as_array().expect("a list")
+}
+
+#[test]
+fn adapters_are_listed_for_people_and_for_programs() {
+    let journey = Journey::new();
+    let lines = good(journey.run(&["adapters"]));
+    let adapters = json(&good(journey.run(&["adapters", "--json"])));
+    assert_eq!(lines.lines().count(), list(&adapters).len());
+    for (line, adapter) in lines.lines().zip(list(&adapters)) {
+        assert!(line.starts_with(adapter["name"].as_str().expect("a name")), "{line}");
+    }
+    assert!(list(&adapters).iter().any(|adapter| adapter["usable"] == true));
+}
+
+#[test]
+fn a_plan_needs_no_adapter() {
+    let journey = Journey::new();
+    let plan = |arguments: &[&str]| {
+        let mut command = journey.command(&["plan"]);
+        command.args(arguments).env("VK_DRIVER_FILES", "none.json").env("VK_ICD_FILENAMES", "none.json");
+        good(command.output().expect("the program starts"))
+    };
+    insta::assert_snapshot!("plan_hang", plan(&[&fixture("scenes/hang.toml"), "--set", "n=16"]));
+    let skirt = fixture("garments/skirt.json");
+    insta::assert_snapshot!("plan_skirt", plan(&["--garment", &skirt, "--spacing", "4cm"]));
+    let plans = json(&plan(&["--garment", &skirt, "--spacing", "4cm", "--json"]));
+    let states: Vec<_> = list(&plans).iter().map(|plan| &plan["state"]).collect();
+    assert_eq!(states, ["open", "sewn"]);
+}
+
+#[test]
+fn the_plan_is_what_the_run_does() {
+    let journey = Journey::new();
+    let with = |command: &str| {
+        let options = ["--set", "n=16", "--set", "frames=1", "--json"];
+        json(&good(journey.run(&[&[command, &fixture("scenes/ball.toml")], &options[..]].concat())))
+    };
+    let (plan, run) = (&with("plan")[0], with("run"));
+    assert_eq!(plan["bytes"], run["gpu_bytes"]);
+    assert_eq!(plan["map_bytes"], 0);
+    // Timestamps are there on the adapter of the tests, so every kernel of a step has its time.
+    let dispatches = |kernels: &Value, key: &str| -> Vec<(String, u64)> {
+        let mut pairs: Vec<_> = list(kernels)
+            .iter()
+            .map(|kernel| {
+                (kernel[key].as_str().expect("a name").to_owned(), kernel["dispatches"].as_u64().expect("a number"))
+            })
+            .collect();
+        pairs.sort();
+        pairs
+    };
+    assert_eq!(dispatches(&run["passes"], "name"), dispatches(&plan["step"], "kernel"));
+}
+
+#[test]
+fn the_gpu_and_the_reference_measure_the_same() {
+    for scene in ["hang", "ball"] {
+        let journey = Journey::new();
+        let path = fixture(&format!("scenes/{scene}.toml"));
+        let run = |backend: &str| {
+            let options = ["--set", "n=16", "--set", "frames=20", "--json", "--out", backend, "--backend", backend];
+            let metrics = json(&good(journey.run(&[&["run", &path], &options[..]].concat())));
+            assert_eq!(journey.names(backend), FILES);
+            assert_eq!(journey.metrics(backend), metrics);
+            metrics
+        };
+        let (gpu, reference) = (run("gpu"), run("reference"));
+        assert_eq!(journey.names(""), ["gpu", "reference"]);
+        let counts =
+            ["particle_count", "spring_count", "colour_count", "quad_count", "steps_draping", "non_finite_count"];
+        for name in counts {
+            assert!(gpu[name].is_u64(), "{scene}: {name}");
+            assert_eq!(gpu[name], reference[name], "{scene}: {name}");
+        }
+        // A driver may round otherwise, and a falling sheet spreads that: a thousandth of the number, or 1e-6 of its unit.
+        for name in ["elongation_max", "elongation_p99", "kinetic_energy_per_particle_j", "penetration_max_mm"] {
+            let [a, b] = [&gpu[name], &reference[name]].map(Value::as_f64);
+            assert_eq!(a.is_some(), b.is_some(), "{scene}: {name}");
+            let (a, b) = (a.unwrap_or(0.0), b.unwrap_or(0.0));
+            assert!((a - b).abs() <= 1e-3 * b.abs() + 1e-6, "{scene}: {name} is {a} and {b}");
+        }
+        assert_eq!(gpu["penetration_max_mm"].is_f64(), scene == "ball", "only a body can be penetrated");
+    }
+}
+
+#[test]
+fn quiet_is_silent_and_loud_says_what_it_made() {
+    let journey = Journey::new();
+    let run = |more: &[&str]| {
+        let options = ["--set", "n=8", "--set", "frames=2", "--backend", "reference"];
+        good(journey.run(&[&["run", &fixture("scenes/ball.toml")], &options[..], more].concat()))
+    };
+    assert_eq!(run(&["--quiet"]), "");
+    let said = run(&["--out", "a/b/c"]);
+    assert!(said.starts_with("sheet: 64 particles"), "{said}");
+    assert!(said.ends_with("wrote a/b/c\n"), "{said}");
+    assert_eq!(journey.names(""), ["a", "out"]);
+    assert_eq!(journey.names("a/b"), ["c"]);
+    assert_eq!(journey.names("a/b/c"), FILES);
+}
+
+#[test]
+fn results_replace_older_ones_and_nothing_else() {
+    let journey = Journey::new();
+    let out = journey.folder.path().join("out");
+    fs::create_dir(&out).expect("a folder");
+    fs::write(out.join("metrics.json"), "old").expect("a file");
+    fs::write(out.join("notes.txt"), "mine").expect("a file");
+    let options = ["--set", "n=8", "--set", "frames=1", "--backend", "reference", "--quiet"];
+    good(journey.run(&[&["run", &fixture("scenes/hang.toml")], &options[..]].concat()));
+    assert_eq!(fs::read_to_string(out.join("notes.txt")).expect("a file"), "mine");
+    assert_eq!(journey.metrics("out")["scene"], "hang");
+    assert_eq!(journey.names(""), ["out"]);
+}
+
+#[test]
+fn a_sphere_is_in_the_result_where_it_is_at_the_end() {
+    let journey = Journey::new();
+    let options = ["--set", "n=8", "--set", "frames=120", "--backend", "reference", "--quiet"];
+    good(journey.run(&[&["run", &fixture("scenes/moving-ball.toml")], &options[..]].concat()));
+    let glb = fs::read(journey.folder.path().join("out/dressed.glb")).expect("a file");
+    let length = u32::from_le_bytes(glb[12..16].try_into().expect("four bytes")) as usize;
+    let root = json(std::str::from_utf8(&glb[20..20 + length]).expect("UTF-8 text"));
+    let names: Vec<_> = list(&root["meshes"]).iter().map(|mesh| &mesh["name"]).collect();
+    assert_eq!(names, ["sphere", "sheet"]);
+    let positions = root["meshes"][0]["primitives"][0]["attributes"]["POSITION"].as_u64().expect("an accessor");
+    let bounds = &root["accessors"][positions as usize];
+    let [low, high] = [&bounds["min"][0], &bounds["max"][0]].map(|v| v.as_f64().expect("a number"));
+    // Half of its period of 4 s: the far end of its swing of 0.4 m.
+    assert!((low - 0.15).abs() < 1e-3 && (high - 0.65).abs() < 1e-3, "{low} to {high}");
+}
+
+#[test]
+fn every_broken_file_ends_in_one_sentence_and_no_folder() {
+    let journey = Journey::new();
+    let mut paths: Vec<PathBuf> =
+        fs::read_dir(fixture("broken")).expect("a folder").map(|entry| entry.expect("an entry").path()).collect();
+    paths.sort();
+    assert!(paths.len() >= 8, "{paths:?}");
+    for path in paths {
+        let option = if path.extension().is_some_and(|ending| ending == "json") { "--garment" } else { "--body" };
+        let path = path.display().to_string();
+        let sentence = refused(journey.run(&["dress", option, &path]));
+        assert!(sentence.starts_with(&path), "{sentence}");
+        assert_eq!(journey.names(""), [] as [&str; 0]);
+    }
+}
+
+#[test]
+fn wrong_options_end_in_one_sentence_and_no_folder() {
+    let journey = Journey::new();
+    fs::write(journey.folder.path().join("file"), "").expect("a file");
+    let hang = fixture("scenes/hang.toml");
+    let refuse = |arguments: &[&str]| refused(journey.run(arguments)).replace(&hang, "hang.toml");
+    let sentences = [
+        refuse(&["dress", "--spacing", "10m"]),
+        refuse(&["dress", "--body", "none.obj"]),
+        refuse(&["dress", "--clip", "jump"]),
+        refuse(&["run", "none.toml"]),
+        refuse(&["run", &hang, "--set", "fabric.colour=3"]),
+        refuse(&["run", &hang, "--set", "n=1"]),
+        refuse(&["run", &hang, "--out", "file"]),
+        refuse(&["run", &hang, "--out", "file/below"]),
+    ];
+    insta::assert_snapshot!("wrong_options", sentences.join("\n"));
+    assert!(refuse(&["run", &hang, "--set", "colour=3"]).contains("key \"colour\": unknown field"));
+    assert!(refuse(&["dress", "--fabric", "tweed"]).contains("neither a preset"));
+    assert!(refuse(&["run", &hang, "--adapter", "abacus"]).starts_with("--adapter abacus: no adapter"));
+    assert_eq!(journey.names(""), ["file"]);
+}
+
+#[test]
+fn two_spheres_are_refused_rather_than_one_of_them_forgotten() {
+    let journey = Journey::new();
+    let text = fs::read_to_string(fixture("scenes/ball.toml")).expect("a scene");
+    let second = "\n[[sphere]]\ncentre = [1.0, 0.0, 0.0]\nradius = 0.1\n";
+    fs::write(journey.folder.path().join("two.toml"), text + second).expect("a file");
+    for command in ["run", "plan"] {
+        let sentence = refused(journey.run(&[command, "two.toml"]));
+        assert_eq!(sentence, "scene ball has 2 spheres, and a scene can have one: remove the others");
+    }
+}
+
+/// The signal is sent once the program listens, which the kernel tells.
+#[cfg(target_os = "linux")]
+#[test]
+fn ctrl_c_ends_the_run_and_leaves_nothing() {
+    use std::process::Stdio;
+    use std::time::{Duration, Instant};
+
+    let journey = Journey::new();
+    let options = ["--set", "n=16", "--set", "frames=100000000", "--backend", "reference"];
+    let mut command = journey.command(&[&["run", &fixture("scenes/hang.toml")], &options[..]].concat());
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the program starts");
+    let listens = || {
+        let status = fs::read_to_string(format!("/proc/{}/status", child.id())).expect("a running program");
+        let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).expect("a mask of signals");
+        u64::from_str_radix(caught.trim(), 16).expect("a mask in hexadecimal") & (1 << 1) != 0
+    };
+    let start = Instant::now();
+    while !listens() {
+        assert!(start.elapsed() < Duration::from_secs(30), "the program does not listen for ctrl-c");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill runs");
+    assert!(sent.success());
+    let output = child.wait_with_output().expect("the program ends");
+    assert_eq!(output.status.code(), Some(130));
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "interrupted: nothing was written\n");
+    assert!(output.stdout.is_empty());
+    assert_eq!(journey.names(""), [] as [&str; 0]);
+}

@@ -1,0 +1,209 @@
+//! The maps that the device draws are those that the reference casts, and the surface in them is the body with its thickness.
+
+use glam::{Vec3, vec3};
+use toile_gpu::{Colliders, Plan, Solver};
+use toile_kernels::{Need, TABLE};
+use toile_model::{MapFrame, Model, StepSettings};
+use toile_reference::ExactDistance;
+use toile_reference::maps::{BodyMaps, Surface, render_maps};
+use toile_scene::{Cloth, Mesh, Rule};
+use toile_workspace::{Layers, body, box_mesh, gpu, scene, uv_sphere, without_triangles};
+
+const TEXEL: f32 = 0.005;
+const THICKNESS: f32 = 0.004;
+
+/// Depths may differ by this [m]: f32 coordinates of a body of 2 m have steps of 1e-7 m, and a handful of them add up.
+const DEPTH_ATOL: f32 = 1e-6;
+
+/// And by the slope of the surface over this part of a texel: rasterisers put vertices on a grid of 1/256 texel.
+const DEPTH_RTOL: f32 = 1.0 / 256.0;
+
+/// Unit normals may differ by this: the same grid moves the place where they are interpolated.
+const NORMAL_TOLERANCE: f32 = 2e-3;
+
+/// Part of the texels in which another triangle may win, because the border between two passes by the texel's centre within
+/// the same grid: most at the rim of holes and in coarse maps.
+const EDGE_FRACTION: f32 = 2e-3;
+
+/// How the device's maps differ from the reference's.
+#[derive(Debug, Default)]
+struct Comparison {
+    /// Texels that either sees, on both sides.
+    seen: usize,
+    /// Texels that only one of them sees.
+    edges: usize,
+    /// Texels whose depths differ by more than the tolerance.
+    deep: usize,
+    /// Texels whose normals differ by more than the tolerance.
+    turned: usize,
+}
+
+impl Comparison {
+    fn new(device: &BodyMaps, reference: &BodyMaps) -> Self {
+        assert_eq!(device.frame, reference.frame);
+        let range = device.frame.z_front - device.frame.z_back;
+        let mut comparison = Self::default();
+        for side in 0..2 {
+            for texel in 0..device.depth[side].len() {
+                let depths = [device, reference].map(|maps| maps.depth[side][texel]);
+                if depths == [1.0, 1.0] {
+                    continue;
+                }
+                comparison.seen += 1;
+                if depths.contains(&1.0) {
+                    comparison.edges += 1;
+                    continue;
+                }
+                let normals = [device, reference].map(|maps| maps.normals[side][texel]);
+                let slope = normals[1].truncate().length() / normals[1].z.abs();
+                let tolerance = DEPTH_ATOL + DEPTH_RTOL * device.frame.texel * slope;
+                let error = (depths[0] - depths[1]).abs() * range;
+                comparison.deep += usize::from(error.is_nan() || error > tolerance);
+                let turn = (normals[0] - normals[1]).length();
+                comparison.turned += usize::from(turn.is_nan() || turn > NORMAL_TOLERANCE);
+            }
+        }
+        comparison
+    }
+
+    fn agrees(&self) -> bool {
+        let few = EDGE_FRACTION * self.seen as f32;
+        [self.edges, self.deep, self.turned].into_iter().all(|count| count as f32 <= few)
+    }
+}
+
+/// Bodies with smooth, flat, real and broken surfaces.
+fn bodies() -> Vec<(&'static str, Mesh)> {
+    let woman = body();
+    let hole = |centre: Vec3| centre.z > 0.0 && centre.distance(vec3(0.0, 1.2, 0.0)) < 0.25;
+    vec![
+        ("sphere", uv_sphere(vec3(0.1, 1.0, 0.0), 0.3, 32)),
+        ("box", box_mesh(vec3(-0.2, 0.1, -0.1), vec3(0.23, 0.5, 0.2))),
+        ("body with holes", without_triangles(&woman, hole)),
+        ("body", woman),
+    ]
+}
+
+#[test]
+fn the_device_draws_what_the_reference_casts() {
+    for (name, mesh) in bodies() {
+        for texel in [TEXEL, 3.7 * TEXEL] {
+            let layers = Layers::draw(gpu(), &[(&mesh, THICKNESS)], texel);
+            let reference = render_maps(&[Surface { mesh: &mesh, thickness: THICKNESS }], texel);
+            let comparison = Comparison::new(&layers.read, &reference);
+            assert!(comparison.seen > 500 && comparison.agrees(), "{name} at {texel} m: {comparison:?}");
+        }
+    }
+}
+
+#[test]
+fn several_surfaces_share_the_maps() {
+    let [ball, block] = [uv_sphere(vec3(0.0, 0.2, 0.0), 0.2, 24), box_mesh(vec3(-0.3, 0.0, 0.0), vec3(0.0, 0.2, 0.3))];
+    let layers = Layers::draw(gpu(), &[(&ball, 0.01), (&block, 0.002)], TEXEL);
+    let surfaces = [Surface { mesh: &ball, thickness: 0.01 }, Surface { mesh: &block, thickness: 0.002 }];
+    let comparison = Comparison::new(&layers.read, &render_maps(&surfaces, TEXEL));
+    assert!(comparison.agrees(), "{comparison:?}");
+}
+
+/// Saboteurs: another thickness, a normal of the other sign, the back taken for the front.
+#[test]
+fn wrong_maps_are_found() {
+    let ball = uv_sphere(vec3(0.1, 1.0, 0.0), 0.3, 32);
+    let layers = Layers::draw(gpu(), &[(&ball, THICKNESS)], TEXEL);
+    let right = layers.read;
+    let frame = right.frame;
+    let thinner = Layers::draw_in(gpu(), &[(&ball, 0.9 * THICKNESS)], frame).read;
+    assert!(!Comparison::new(&right, &thinner).agrees(), "thickness");
+    let mut turned = right.clone();
+    turned.normals[0].iter_mut().for_each(|normal| normal.x = -normal.x);
+    assert!(!Comparison::new(&right, &turned).agrees(), "normals");
+    let lying = Layers::draw(gpu(), &[(&box_mesh(vec3(-0.2, 0.0, -0.1), vec3(0.2, 0.3, 0.3)), 0.0)], TEXEL).read;
+    let mut swapped = lying.clone();
+    swapped.depth.swap(0, 1);
+    swapped.normals.swap(0, 1);
+    assert!(!Comparison::new(&lying, &swapped).agrees(), "sides");
+}
+
+/// Distances [m] from the true body to the surface in the maps, sorted.
+fn distances(mesh: &Mesh, thickness: f32) -> Vec<f64> {
+    let maps = Layers::draw(gpu(), &[(mesh, thickness)], TEXEL).read;
+    let MapFrame { origin_x, origin_y, texel, columns, z_front, z_back, .. } = maps.frame;
+    let exact = ExactDistance::new(mesh);
+    let mut distances = Vec::new();
+    for (side, sign) in [(0, 1.0), (1, -1.0)] {
+        let plane = if side == 0 { z_front } else { z_back };
+        for index in (0..maps.depth[side].len()).step_by(5) {
+            let depth = maps.depth[side][index];
+            if depth < 1.0 {
+                let x = origin_x + ((index as u32 % columns) as f32 + 0.5) * texel;
+                let y = origin_y - ((index as u32 / columns) as f32 + 0.5) * texel;
+                let point = vec3(x, y, plane - sign * depth * (z_front - z_back));
+                distances.push(-exact.penetration(point.as_dvec3()));
+            }
+        }
+    }
+    distances.sort_by(f64::total_cmp);
+    distances
+}
+
+/// Vertices move out along their normals, so a flat face moves by the thickness times the cosine of the angle between face
+/// and vertex normal: a coarse mesh gets less, and between two close surfaces the distance is that to the nearer one.
+#[test]
+fn the_surface_in_the_maps_keeps_the_thickness_from_the_body() {
+    let thickness = f64::from(THICKNESS);
+    let of = |sorted: &[f64], part: f64| sorted[((sorted.len() - 1) as f64 * part) as usize];
+    // A face of the sphere leans from its vertex normals by at most 3°.
+    let ball = distances(&uv_sphere(vec3(0.1, 1.0, 0.0), 0.3, 64), THICKNESS);
+    assert!(ball[0] > 0.995 * thickness && of(&ball, 1.0) < 1.005 * thickness, "{:?} {:?}", ball[0], of(&ball, 1.0));
+    let woman = distances(&body(), THICKNESS);
+    let [least, p1, median, most] = [0.0, 0.01, 0.5, 1.0].map(|part| of(&woman, part) / thickness);
+    assert!(least > 0.5, "the surface comes as near as {least} of the thickness");
+    assert!(p1 > 0.85, "1 of 100 texels is nearer than {p1} of the thickness");
+    assert!((median - 1.0).abs() < 0.02, "the middle texel is at {median} of the thickness");
+    assert!(most < 1.001, "the surface is as far as {most} of the thickness");
+}
+
+fn sheet(rule: Rule) -> (Model, StepSettings) {
+    let mut hang = scene("hang", &[("n", "16")]);
+    hang.settings.velocity_modification.rule = rule;
+    let Cloth::Sheet(sheet) = &hang.cloths[0] else { panic!("hang has a sheet") };
+    let model = Model::from_sheet(sheet, &hang.settings);
+    let settings = StepSettings::new(&hang.settings, &model);
+    (model, settings)
+}
+
+#[test]
+fn without_a_body_nothing_of_the_contacts_exists() {
+    let (model, settings) = sheet(Rule::Predictive);
+    let solver = Solver::new(&gpu().device, &model, &settings, Colliders::default()).expect("it fits the device");
+    let contact = [Need::Body, Need::Maps, Need::Sphere];
+    for kernel in solver.plan().kernels() {
+        let row = TABLE.iter().find(|row| row.kernel == kernel).expect("every kernel has a row");
+        assert!(!contact.contains(&row.need), "{} needs a body", kernel.name());
+    }
+    let names: Vec<&str> = solver.buffer_sizes().map(|(name, _)| name).collect();
+    for name in ["map_frame", "midpoints", "probes", "contacts", "ball"] {
+        assert!(!names.contains(&name), "{name} among {names:?}");
+    }
+    let simulation = toile::Simulation::new(&gpu().device, &model, &settings, Default::default()).expect("it fits");
+    assert_eq!(simulation.bytes(), solver.bytes() + simulation.frame().indices.size());
+    assert!(simulation.contacts().is_none());
+}
+
+#[test]
+fn plan_and_bytes_do_not_depend_on_the_triangles_of_the_body() {
+    let (model, settings) = sheet(Rule::Predictive);
+    let frame = MapFrame::around([vec3(-0.4, -0.4, -0.4), vec3(0.4, 0.4, 0.4)], TEXEL);
+    let with = |count: u32| {
+        let mesh = uv_sphere(Vec3::ZERO, 0.3, count);
+        let layers = Layers::draw_in(gpu(), &[(&mesh, THICKNESS)], frame);
+        let colliders = toile::Colliders { maps: Some(layers.maps.clone()), sphere: None };
+        let simulation = toile::Simulation::new(&gpu().device, &model, &settings, colliders).expect("it fits");
+        (mesh.triangles.len(), simulation.plan().clone(), simulation.bytes(), layers.maps.bytes())
+    };
+    let [coarse, fine]: [(usize, Plan, u64, u64); 2] = [with(8), with(150)];
+    assert!(fine.0 > 100 * coarse.0);
+    assert_eq!(coarse.1, fine.1);
+    assert_eq!((coarse.2, coarse.3), (fine.2, fine.3));
+    assert!(coarse.2 > coarse.3, "the bytes of a simulation hold those of its maps");
+}

@@ -1,0 +1,285 @@
+//! Which branches of a kernel an input leads into, told from the input and from what the reference made of it.
+
+use crate::input::Input;
+use glam::Vec3;
+use std::collections::BTreeMap;
+use toile_kernels::Kernel;
+use toile_model::NO_CORNER;
+use toile_reference::{Contact, Probe};
+
+/// How many items went into each branch.
+pub type Seen = BTreeMap<&'static str, usize>;
+
+/// Adds the items of one input. `after` is the input once the kernel's reference has worked on it.
+pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
+    let mut see = |branch: &'static str, items: usize| *seen.entry(branch).or_default() += items;
+    let weights = &before.particles.inverse_masses;
+    let positions = &before.particles.positions;
+    let changed = |i: usize| {
+        after.particles.velocities[i] != before.particles.velocities[i] && before.particles.velocities[i].is_finite()
+    };
+    let particles = || 0..positions.len();
+    match kernel {
+        Kernel::SpringForces => {
+            let lengths = || {
+                particles().flat_map(|i| {
+                    before.links.row(i).iter().map(move |l| (positions[l.other as usize] - positions[i]).length())
+                })
+            };
+            see("is pulled", lengths().filter(|length| *length > 0.0).count());
+            see("has a spring without length", lengths().filter(|length| *length == 0.0).count());
+            see("has a neighbour that is no number", lengths().filter(|length| length.is_nan()).count());
+            see("has no spring", particles().filter(|i| before.links.row(*i).is_empty()).count());
+        }
+        Kernel::Reaction => {
+            let pressed = |i: &usize| before.forces[*i].dot(before.contacts[*i].normal) < 0.0;
+            let touching = |i: &usize| before.contacts[*i].touching && weights[*i] > 0.0;
+            see("touches nothing", particles().filter(|i| !before.contacts[*i].touching).count());
+            see(
+                "touches but is pinned",
+                particles().filter(|i| before.contacts[*i].touching && weights[*i] == 0.0).count(),
+            );
+            see("is drawn away", particles().filter(|i| touching(i) && !pressed(i)).count());
+            see("is pressed on", particles().filter(|i| touching(i) && pressed(i)).count());
+            let held = |i: &usize| touching(i) && pressed(i) && after.forces[*i].length() < 1e-9;
+            see("is held by friction", particles().filter(held).count());
+            see("slides", particles().filter(|i| touching(i) && pressed(i) && !held(i)).count());
+        }
+        Kernel::Euler => {
+            see("is pinned", particles().filter(|i| weights[*i] == 0.0 && !changed(*i)).count());
+            see("is accelerated", particles().filter(|i| changed(*i)).count());
+        }
+        Kernel::HoldEdges => {
+            let bound = before.settings.hold_speed / before.settings.hold_rate;
+            let members =
+                |h: &toile_model::Hold| &before.held_particles[h.particles.start as usize..h.particles.end as usize];
+            let way = |h: &toile_model::Hold| {
+                let sum: f32 = members(h).iter().map(|i| positions[*i as usize].y).sum();
+                h.height - sum / members(h).len() as f32
+            };
+            let holds = || before.holds.iter();
+            see("is far below", holds().filter(|h| way(h) > bound).count());
+            see("is far above", holds().filter(|h| way(h) < -bound).count());
+            see("is near", holds().filter(|h| way(h).abs() < bound).count());
+            see("is no number", holds().filter(|h| way(h).is_nan()).count());
+            see("is one particle", holds().filter(|h| members(h).len() == 1).count());
+            see("is more than a workgroup", holds().filter(|h| members(h).len() > 64 && way(h).is_finite()).count());
+        }
+        Kernel::CloseSeams => {
+            let pairs: Vec<_> = before.colour_pairs().iter().map(|s| s.ends.map(|end| end as usize)).collect();
+            ends(&pairs, before, after, &mut see);
+            let shut = |s: &&toile_model::SeamPair| {
+                let [a, b] = s.ends.map(|end| positions[end as usize]);
+                (b - a).length() < s.closing_speed * before.settings.dt
+            };
+            see("closes within the step", before.colour_pairs().iter().filter(shut).count());
+        }
+        Kernel::LimitZero | Kernel::LimitAverage | Kernel::LimitPredictive | Kernel::LimitPosition => {
+            let pairs: Vec<_> = before.colour_limits().iter().map(|l| l.ends.map(|end| end as usize)).collect();
+            ends(&pairs, before, after, &mut see);
+        }
+        Kernel::LimitDirectional => directional(before, after, &mut see),
+        Kernel::QuadMidpoints => {
+            see("is a triangle", before.quads.iter().filter(|q| q[3] == NO_CORNER).count());
+            see("is a quad", before.quads.iter().filter(|q| q[3] != NO_CORNER).count());
+        }
+        Kernel::SampleMaps => maps(before, after, &mut see),
+        Kernel::SampleSphere => {
+            let [points, _] = before.points();
+            let kept =
+                |i: &usize| before.after_maps && before.probes[*i].hit && same(&after.probes[*i], &before.probes[*i]);
+            let reached = |i: &usize| after.probes[*i].hit && !kept(i);
+            see("is the centre", points.iter().filter(|p| **p == before.ball.centre).count());
+            see("is reached", (0..points.len()).filter(reached).count());
+            let nearer = |i: &usize| reached(i) && before.after_maps && before.probes[*i].hit;
+            see("is nearer than the maps", (0..points.len()).filter(nearer).count());
+            let inside = |i: &usize| (points[*i] - before.ball.centre).length() < before.ball.radius;
+            see("is farther than the maps", (0..points.len()).filter(|i| kept(i) && inside(i)).count());
+            see("is not reached", (0..points.len()).filter(|i| !after.probes[*i].hit).count());
+            see("is outside but comes near", (0..points.len()).filter(|i| reached(i) && !inside(i)).count());
+        }
+        Kernel::Collide => collide(before, after, &mut see),
+        Kernel::MoveParticles => {
+            see("moves", particles().filter(|i| after.particles.positions[*i] != positions[*i]).count())
+        }
+        Kernel::ParticleNormals => {
+            see("has no area", after.normals.iter().filter(|n| **n == Vec3::Y).count());
+            see("has a normal", after.normals.iter().filter(|n| n.is_finite() && **n != Vec3::Y).count());
+        }
+        Kernel::ParticleStatus => {
+            let velocities = &before.particles.velocities;
+            see("has a position that is no number", positions.iter().filter(|p| p.is_nan()).count());
+            see("has an infinite velocity", velocities.iter().filter(|v| !v.is_nan() && !v.is_finite()).count());
+            see("is pinned", weights.iter().filter(|w| **w == 0.0).count());
+            see("is counted", after.status.non_finite_count as usize);
+        }
+        Kernel::TotalEnergy => see("adds", before.energy_partials.len()),
+        Kernel::LimitStatus => {
+            see("is over-long", after.status.over_long_count as usize);
+            see("is not over-long", before.limits.len() - after.status.over_long_count as usize);
+            let exact = |l: &&toile_model::Limit| {
+                let [a, b] = l.ends.map(|end| positions[end as usize]);
+                (b - a).length() == l.max_length
+            };
+            see("is exactly as long as it may be", before.limits.iter().filter(exact).count());
+        }
+        Kernel::SeamStatus => {
+            let gaps = before.seam_pairs.iter().map(|s| s.ends.map(|end| positions[end as usize]));
+            see("is no number", gaps.filter(|[a, b]| (*b - *a).is_nan()).count());
+            see("has a gap", usize::from(f32::from_bits(after.status.seam_gap_max) > 0.0));
+        }
+        Kernel::MergeParticles => {
+            let sizes: Vec<usize> = particles().map(|i| before.members.row(i).len()).collect();
+            see("stays alone", sizes.iter().filter(|size| **size == 1).count());
+            see("has two members", sizes.iter().filter(|size| **size == 2).count());
+            see("has more members", sizes.iter().filter(|size| **size > 2).count());
+        }
+        Kernel::StateCopy => see("is copied", after.copies.positions.iter().filter(|p| **p != Vec3::ZERO).count()),
+    }
+}
+
+/// Both ends of limits or seam pairs.
+fn ends(pairs: &[[usize; 2]], before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize)) {
+    let [old, new] = [&before.particles, &after.particles];
+    let moved = |i: usize| old.velocities[i] != new.velocities[i] || old.positions[i] != new.positions[i];
+    let number = |i: usize| old.positions[i].is_finite() && old.velocities[i].is_finite();
+    let pinned = |i: usize| old.inverse_masses[i] == 0.0;
+    let select = |wanted: &dyn Fn(usize, usize) -> bool| {
+        pairs.iter().filter(|[a, b]| number(*a) && number(*b) && wanted(*a, *b)).count()
+    };
+    see("changes both ends", select(&|a, b| moved(a) && moved(b)));
+    see("changes neither", select(&|a, b| !pinned(a) && !pinned(b) && !moved(a) && !moved(b)));
+    see("has its first end pinned", select(&|a, b| pinned(a) && moved(b) && !moved(a)));
+    see("has its second end pinned", select(&|a, b| pinned(b) && moved(a) && !moved(b)));
+    see("has both ends pinned", select(&|a, b| pinned(a) && pinned(b)));
+    let broken = pairs.iter().filter(|pair| pair.iter().any(|i| old.positions[*i].is_nan()));
+    see("has an end that is no number", broken.clone().count());
+    for [a, b] in broken {
+        let kept = |i: &usize| {
+            old.velocities[*i].to_array().map(f32::to_bits) == new.velocities[*i].to_array().map(f32::to_bits)
+        };
+        assert!(kept(a) && kept(b), "an end that is no number does not spread along a limit");
+    }
+}
+
+fn directional(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize)) {
+    let pairs: Vec<_> = before.colour_limits().iter().map(|l| l.ends.map(|end| end as usize)).collect();
+    let [old, new] = [&before.particles, &after.particles];
+    let moved = |i: usize| old.velocities[i] != new.velocities[i] && old.velocities[i].is_finite();
+    let free = |i: usize| old.inverse_masses[i] > 0.0;
+    let touching = |i: usize| before.contacts[i].touching;
+    let select = |wanted: &dyn Fn(usize, usize) -> bool| pairs.iter().filter(|[a, b]| wanted(*a, *b)).count();
+    let gravity = before.settings.gravity != Vec3::ZERO;
+    see("averages", select(&|a, b| moved(a) && moved(b)));
+    see("has the first end in the rear", select(&|a, b| free(b) && moved(a) && !moved(b)));
+    see("has the second end in the rear", select(&|a, b| free(a) && moved(b) && !moved(a)));
+    see("is not over-long", select(&|a, b| free(a) && free(b) && !moved(a) && !moved(b)));
+    see("touches with both ends", select(&|a, b| touching(a) && touching(b)));
+    see("touches with the first end", select(&|a, b| touching(a) && !touching(b)));
+    see("touches with the second end", select(&|a, b| !touching(a) && touching(b)));
+    see("has no direction", select(&|a, b| !gravity && !touching(a) && !touching(b) && moved(a) && moved(b)));
+    see("has both ends pinned", select(&|a, b| !free(a) && !free(b)));
+}
+
+fn maps(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize)) {
+    let maps = &before.layers.read;
+    let frame = maps.frame;
+    let [points, velocities] = before.points();
+    let mut counts = [0; 8];
+    for ((point, velocity), probe) in points.iter().zip(&velocities).zip(&after.probes) {
+        let next = *point + *velocity * before.settings.dt;
+        let column = ((next.x - frame.origin_x) / frame.texel).floor();
+        let row = ((frame.origin_y - next.y) / frame.texel).floor();
+        let [beside_x, beside_y] =
+            [(column, frame.columns), (row, frame.rows)].map(|(i, n)| !(i >= 0.0 && i < n as f32));
+        let texel = (row as usize * frame.columns as usize + column as usize).min(maps.depth[0].len() - 1);
+        let kind = match (beside_x || beside_y, probe.hit) {
+            _ if next.is_nan() => 0,
+            (true, _) if beside_x => 1,
+            (true, _) => 2,
+            (false, false) if maps.depth[0][texel] == 1.0 => 3,
+            (false, false) => 4,
+            (false, true) if probe.normal.z > 0.0 => 5,
+            (false, true) => 6,
+        };
+        counts[kind] += 1;
+        counts[7] += usize::from(((next.x - frame.origin_x) / frame.texel).fract() == 0.0);
+    }
+    let names = [
+        "is no number",
+        "is left or right of the maps",
+        "is above or below the maps",
+        "has a texel that sees nothing",
+        "is before or behind the body",
+        "is answered by the front",
+        "is answered by the back",
+        "is on the border of a texel",
+    ];
+    names.into_iter().zip(counts).for_each(|(name, count)| see(name, count));
+}
+
+fn collide(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize)) {
+    let settings = &before.settings;
+    let papers = settings.law != toile_scene::Friction::Coulomb;
+    let count = before.particle_count();
+    let comes_near = |velocity: Vec3, probe: &Probe| {
+        probe.hit
+            && probe.distance + (velocity - probe.velocity).dot(probe.normal) * settings.dt < settings.contact_margin
+    };
+    let names = [
+        "has no surface",
+        "does not come near",
+        "touches without approach",
+        "is rubbed by the papers' law",
+        "sticks by Coulomb's law",
+        "slides by Coulomb's law",
+        "is pushed out at once",
+        "is pushed out at the largest speed",
+        "has a normal that is no number",
+        "collides with its quads",
+        "is carried by its quads alone",
+        "collides but is pinned",
+    ];
+    let mut counts = [0; 12];
+    for i in 0..count {
+        let [old, new] = [before.particles.velocities[i], after.particles.velocities[i]];
+        let probe = &before.probes[i];
+        let own = after.contacts[i].touching;
+        assert!(own || after.contacts[i] == Contact::default(), "a contact ends when nothing is touched");
+        let quads = before
+            .particle_quads
+            .row(i)
+            .iter()
+            .any(|q| comes_near(before.midpoints.velocities[*q as usize], &before.probes[count + *q as usize]));
+        let pinned = before.particles.inverse_masses[i] == 0.0;
+        let alone = own && !quads && !pinned && old.is_finite();
+        let end = new - probe.velocity;
+        let slip = (end - probe.normal * end.dot(probe.normal)).length();
+        let way = (after.particles.positions[i] - before.particles.positions[i]).length();
+        let longest = settings.push_speed * settings.dt;
+        let happens = [
+            !probe.hit,
+            probe.hit && !own,
+            alone && old == new,
+            alone && old != new && papers,
+            alone && old != new && !papers && slip < 1e-5,
+            alone && old != new && !papers && slip > 1e-3,
+            alone && way > 1e-5 && way < 0.99 * longest,
+            alone && way > 0.99 * longest,
+            probe.normal.is_nan() && !own,
+            own && quads && !pinned,
+            !own && quads && !pinned && old != new,
+            own && pinned && same_bits(old, new),
+        ];
+        counts.iter_mut().zip(happens).for_each(|(count, happens)| *count += usize::from(happens));
+    }
+    names.into_iter().zip(counts).for_each(|(name, count)| see(name, count));
+}
+
+fn same(a: &Probe, b: &Probe) -> bool {
+    a.hit == b.hit && a.distance.to_bits() == b.distance.to_bits() && same_bits(a.normal, b.normal)
+}
+
+fn same_bits(a: Vec3, b: Vec3) -> bool {
+    a.to_array().map(f32::to_bits) == b.to_array().map(f32::to_bits)
+}

@@ -1,0 +1,210 @@
+//! Everything a kernel may read or write, on the side of the reference, and its bytes on the device.
+
+use encase::{ShaderType, StorageBuffer, UniformBuffer, internal::WriteInto};
+use glam::{Vec3, Vec4};
+use std::ops::Range;
+use toile_gpu::BodyMaps;
+use toile_kernels::structs;
+use toile_model::{Csr, Hold, Limit, Link, SeamPair, StepSettings};
+use toile_reference::{Ball, Contact, Midpoints, Particles, Probe};
+use toile_scene::Friction;
+use toile_workspace::{Inputs, Layers};
+
+/// Everything a kernel may read or write.
+#[derive(Clone)]
+pub struct Input {
+    /// Number of invocations that the kernel under test needs.
+    pub invocations: u32,
+    pub settings: StepSettings,
+    pub particles: Particles,
+    /// Particles of the open model, for the handover.
+    pub open: Particles,
+    pub members: Csr<u32>,
+    pub copies: Particles,
+    pub forces: Vec<Vec3>,
+    pub links: Csr<Link>,
+    pub limits: Vec<Limit>,
+    pub seam_pairs: Vec<SeamPair>,
+    /// The items of the colour that the dispatch works on.
+    pub span: Range<u32>,
+    pub holds: Vec<Hold>,
+    pub held_particles: Vec<u32>,
+    pub quads: Vec<[u32; 4]>,
+    pub particle_quads: Csr<u32>,
+    pub midpoints: Midpoints,
+    /// Of the particles, then of the quads.
+    pub probes: Vec<Probe>,
+    pub contacts: Vec<Contact>,
+    pub normals: Vec<Vec3>,
+    pub energy_partials: Vec<f32>,
+    pub status: structs::Status,
+    pub ball: Ball,
+    /// Whether the sphere is sampled after the maps.
+    pub after_maps: bool,
+    pub layers: Layers,
+}
+
+impl Input {
+    /// The limits of the span.
+    pub fn colour_limits(&self) -> &[Limit] {
+        &self.limits[self.span.start as usize..self.span.end as usize]
+    }
+
+    /// The seam pairs of the span.
+    pub fn colour_pairs(&self) -> &[SeamPair] {
+        &self.seam_pairs[self.span.start as usize..self.span.end as usize]
+    }
+
+    /// Number of particles.
+    pub fn particle_count(&self) -> usize {
+        self.particles.positions.len()
+    }
+
+    /// Positions and velocities of all points: the particles, then the quad midpoints.
+    pub fn points(&self) -> [Vec<Vec3>; 2] {
+        [
+            [self.particles.positions.as_slice(), &self.midpoints.positions].concat(),
+            [self.particles.velocities.as_slice(), &self.midpoints.velocities].concat(),
+        ]
+    }
+
+    fn step_params(&self) -> structs::StepParams {
+        let s = &self.settings;
+        let (friction_law, velocity_kept, force_removed) = match s.law {
+            Friction::Coulomb => (0, 0.0, 0.0),
+            Friction::Papers { velocity_kept, force_removed } => (1, velocity_kept as f32, force_removed as f32),
+        };
+        structs::StepParams {
+            gravity: s.gravity,
+            dt: s.dt,
+            damping: s.damping,
+            push_speed: s.push_speed,
+            contact_margin: s.contact_margin,
+            reflection: s.reflection,
+            friction_law,
+            friction: s.friction,
+            velocity_kept,
+            force_removed,
+            hold_rate: s.hold_rate,
+            hold_speed: s.hold_speed,
+            particle_count: self.particles.positions.len() as u32,
+            quad_count: self.quads.len() as u32,
+        }
+    }
+}
+
+impl Inputs for Input {
+    fn bytes(&self, name: &str) -> Vec<u8> {
+        match name {
+            "step" => uniform(&self.step_params()),
+            "span" => uniform(&structs::Span { first: self.span.start, count: self.span.end - self.span.start }),
+            "ball" => uniform(&structs::Ball {
+                centre: self.ball.centre,
+                radius: self.ball.radius,
+                velocity: self.ball.velocity,
+                after_maps: u32::from(self.after_maps),
+            }),
+            "map_frame" => {
+                let frame = self.layers.read.frame;
+                uniform(&structs::MapFrame {
+                    origin_x: frame.origin_x,
+                    origin_y: frame.origin_y,
+                    texel: frame.texel,
+                    z_front: frame.z_front,
+                    z_back: frame.z_back,
+                    columns: frame.columns,
+                    rows: frame.rows,
+                })
+            }
+            "positions" => with_w(&self.particles.positions, &self.particles.inverse_masses),
+            "velocities" => with_w(&self.particles.velocities, &self.particles.masses),
+            "open_positions" => with_w(&self.open.positions, &self.open.inverse_masses),
+            "open_velocities" => with_w(&self.open.velocities, &self.open.masses),
+            "position_copies" => with_w(&self.copies.positions, &self.copies.inverse_masses),
+            "velocity_copies" => with_w(&self.copies.velocities, &self.copies.masses),
+            "member_offsets" => words(&self.members.offsets),
+            "members" => words(&self.members.values),
+            "forces" => with_w(&self.forces, &vec![0.0; self.forces.len()]),
+            "normals" => with_w(&self.normals, &vec![0.0; self.normals.len()]),
+            "link_offsets" => words(&self.links.offsets),
+            "link_others" => words(&self.links.values.iter().map(|l| l.other).collect::<Vec<_>>()),
+            "link_springs" => array(
+                self.links
+                    .values
+                    .iter()
+                    .map(|l| structs::LinkSpring { rest_length: l.rest_length, stiffness: l.stiffness }),
+            ),
+            "limits" => array(self.limits.iter().map(|l| structs::Limit {
+                first: l.ends[0],
+                second: l.ends[1],
+                rest_length: l.rest_length,
+                max_length: l.max_length,
+            })),
+            "seam_pairs" => array(self.seam_pairs.iter().map(|s| structs::SeamPair {
+                first: s.ends[0],
+                second: s.ends[1],
+                closing_speed: s.closing_speed,
+            })),
+            "holds" => array(self.holds.iter().map(|h| structs::Hold {
+                first: h.particles.start,
+                count: h.particles.end - h.particles.start,
+                height: h.height,
+            })),
+            "held_particles" => words(&self.held_particles),
+            "quads" => bytemuck::cast_slice(&self.quads).to_vec(),
+            "particle_quad_offsets" => words(&self.particle_quads.offsets),
+            "particle_quads" => words(&self.particle_quads.values),
+            "midpoints" => {
+                let both = self.midpoints.positions.iter().zip(&self.midpoints.velocities);
+                array(both.map(|(position, velocity)| structs::Midpoint { position: *position, velocity: *velocity }))
+            }
+            "probes" => array(self.probes.iter().map(|p| structs::Probe {
+                normal: p.normal,
+                distance: p.distance,
+                velocity: p.velocity,
+                hit: flag(p.hit),
+            })),
+            "contacts" => array(self.contacts.iter().map(|c| structs::Contact {
+                normal: c.normal,
+                touching: flag(c.touching),
+                velocity: c.velocity,
+                padding: 0.0,
+            })),
+            "energy_partials" => bytemuck::cast_slice(&self.energy_partials).to_vec(),
+            "status" => array([self.status].into_iter()),
+            other => panic!("the kernels name a buffer {other} that the tests do not know"),
+        }
+    }
+
+    fn maps(&self) -> Option<&BodyMaps> {
+        Some(&self.layers.maps)
+    }
+}
+
+fn flag(on: bool) -> f32 {
+    if on { 1.0 } else { 0.0 }
+}
+
+fn with_w(xyz: &[Vec3], w: &[f32]) -> Vec<u8> {
+    let packed: Vec<Vec4> = xyz.iter().zip(w).map(|(xyz, w)| xyz.extend(*w)).collect();
+    bytemuck::cast_slice(&packed).to_vec()
+}
+
+fn words(values: &[u32]) -> Vec<u8> {
+    bytemuck::cast_slice(values).to_vec()
+}
+
+fn uniform<T: ShaderType + WriteInto>(value: &T) -> Vec<u8> {
+    let mut buffer = UniformBuffer::new(Vec::new());
+    buffer.write(value).expect("a vector grows");
+    buffer.into_inner()
+}
+
+fn array<T>(values: impl Iterator<Item = T>) -> Vec<u8>
+where
+    Vec<T>: ShaderType + WriteInto,
+{
+    let mut buffer = StorageBuffer::new(Vec::new());
+    buffer.write(&values.collect::<Vec<T>>()).expect("a vector grows");
+    buffer.into_inner()
+}

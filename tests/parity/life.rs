@@ -1,0 +1,83 @@
+//! The same cloth on the device and in the reference, compared after every step.
+
+use toile_gpu::{Colliders, Solver};
+use toile_model::{Merge, Model, Status, StepSettings};
+use toile_reference::Reference;
+use toile_scene::Sphere;
+use toile_workspace::{Layers, arrived, first_difference, gpu, vec3_words};
+
+/// The same cloth on the device and in the reference.
+pub struct Life {
+    pub solver: Solver,
+    pub reference: Reference,
+    /// Most particles that were in contact after any step.
+    pub contacts_max: usize,
+}
+
+impl Life {
+    pub fn new(model: &Model, settings: &StepSettings, layers: Option<&Layers>, sphere: Option<Sphere>) -> Self {
+        let colliders = Colliders { maps: layers.map(|layers| layers.maps.as_ref()), sphere };
+        let solver = Solver::new(&gpu().device, model, settings, colliders).expect("the model fits the device");
+        let maps = layers.map(|layers| layers.read.clone());
+        let reference = Reference::new(model, settings, toile_reference::Colliders { maps, sphere });
+        Self { solver, reference, contacts_max: 0 }
+    }
+
+    /// Steps both, up to `frames` frames, and demands the same bits after every step and the same outputs after every frame.
+    /// Ends early once the state is no longer finite on both sides; gives the status at the end.
+    pub fn agree(&mut self, name: &str, frames: u32) -> Status {
+        let mut last = Status::default();
+        for _ in 0..frames {
+            for _ in 0..self.solver.settings().steps_per_frame {
+                gpu().run(|encoder| self.solver.record_steps(&gpu().device, encoder, 1));
+                self.reference.step();
+                if let Some(fault) = self.difference() {
+                    panic!("{name}: step {} is the first that differs: {fault}", self.solver.step());
+                }
+                let contacts = self.reference.contacts().iter().filter(|contact| contact.touching).count();
+                self.contacts_max = self.contacts_max.max(contacts);
+            }
+            gpu().run(|encoder| self.solver.record_outputs(encoder));
+            last = self.status();
+            assert_eq!(last, self.reference.status(), "{name}: status");
+            let normals = vec3_words(&gpu().vec3s(self.solver.normals()));
+            if let Some(fault) = first_difference(&normals, &vec3_words(&self.reference.normals())) {
+                panic!("{name}: normals after step {}: {fault}", self.solver.step());
+            }
+            if last.non_finite_count > 0 {
+                break;
+            }
+        }
+        last
+    }
+
+    /// The status of the frame that is done.
+    fn status(&mut self) -> Status {
+        let step = self.solver.step();
+        arrived("the status of a frame", || self.solver.status().filter(|status| status.step == step))
+    }
+
+    /// Where positions, velocities or contacts differ.
+    pub fn difference(&self) -> Option<String> {
+        let device = [self.solver.positions(), self.solver.velocities()].map(|buffer| vec3_words(&gpu().vec3s(buffer)));
+        let reference = [self.reference.positions(), self.reference.velocities()].map(vec3_words);
+        for (name, (device, reference)) in ["positions", "velocities"].into_iter().zip(device.iter().zip(&reference)) {
+            if let Some(difference) = first_difference(device, reference) {
+                return Some(format!("{name}: {difference}"));
+            }
+        }
+        // The directional rule asks for contacts even where there is nothing to touch.
+        let buffer = self.solver.contacts().filter(|_| !self.reference.contacts().is_empty())?;
+        let contacts: Vec<_> = self.reference.contacts().iter().flat_map(|c| [c.normal, c.velocity]).collect();
+        first_difference(&vec3_words(&gpu().vec3s(buffer)), &vec3_words(&contacts))
+            .map(|fault| format!("contacts: {fault}"))
+    }
+
+    /// The handover to the sewn model on both sides.
+    pub fn sewn(self, model: &Model, merge: &Merge, settings: &StepSettings, layers: Option<&Layers>) -> Self {
+        let colliders = Colliders { maps: layers.map(|layers| layers.maps.as_ref()), sphere: None };
+        let mut solver = Solver::new(&gpu().device, model, settings, colliders).expect("the model fits the device");
+        gpu().run(|encoder| solver.record_merge(&gpu().device, encoder, &self.solver, merge));
+        Self { solver, reference: self.reference.sewn(model, settings, merge), contacts_max: 0 }
+    }
+}

@@ -1,0 +1,303 @@
+//! Seeded input of any size that leads into every branch of a kernel.
+
+use crate::input::Input;
+use glam::{Vec3, vec3};
+use std::sync::OnceLock;
+use toile_kernels::{Domain, Kernel, TABLE};
+use toile_model::{Csr, Hold, Limit, Link, Model, NO_CORNER, SeamPair, StepSettings};
+use toile_reference::{Ball, Contact, Midpoints, Particles, Probe};
+use toile_scene::Friction;
+use toile_workspace::{Layers, Random, box_mesh, gpu, settings, uv_sphere};
+
+/// What the numbers of a step are: together these lead into every branch that the settings decide.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variant {
+    Coulomb,
+    Papers,
+    /// No gravity, and the sphere alone.
+    Weightless,
+}
+
+pub const VARIANTS: [Variant; 3] = [Variant::Coulomb, Variant::Papers, Variant::Weightless];
+
+/// How many of each thing there are.
+struct Counts {
+    particles: u32,
+    quads: u32,
+    /// Limits or seam pairs of the colour, and of colours before and after it.
+    pairs: u32,
+    others: u32,
+    partials: u32,
+    holds: u32,
+}
+
+/// Input on which `kernel` works on `items` items.
+pub fn input(kernel: Kernel, items: u32, variant: Variant) -> Input {
+    let seed = u64::from(items) << 16 | (kernel as u64) << 4 | variant as u64;
+    let random = &mut Random::new(seed);
+    let domain = TABLE.iter().find(|row| row.kernel == kernel).expect("every kernel has a row").domain;
+    let counts = counts(domain, items);
+    let settings = step_settings(variant);
+    let contacts: Vec<Contact> = (0..counts.particles).map(|_| contact(random)).collect();
+    let particles = particles(random, &contacts);
+    let (span, limits, seam_pairs) = pairs(random, &particles, &counts, domain);
+    let quads = quads(random, &counts);
+    let midpoints = Midpoints {
+        positions: (0..counts.quads).map(|_| random.vector(0.6)).collect(),
+        velocities: (0..counts.quads).map(|_| random.vector(2.0)).collect(),
+    };
+    let (open, members) = open_particles(random, counts.particles);
+    let (holds, held_particles) = holds(random, &particles, counts.holds);
+    let mut input = Input {
+        // A hold takes a whole workgroup.
+        invocations: if domain == Domain::Hold { 64 * items } else { items },
+        ball: Ball { centre: vec3(0.1, 0.0, -0.05), radius: 0.35, velocity: vec3(0.5, 0.0, 0.2) },
+        after_maps: variant != Variant::Weightless,
+        layers: layers().clone(),
+        open,
+        members,
+        copies: particles.clone(),
+        forces: (0..counts.particles).map(|i| force(random, i, &contacts[i as usize])).collect(),
+        links: links(random, counts.particles),
+        limits,
+        seam_pairs,
+        span,
+        holds,
+        held_particles,
+        particle_quads: Csr::from_rows((0..counts.particles).map(|_| {
+            let row = if counts.quads == 0 { 0 } else { random.below(5) };
+            (0..row).map(|_| random.below(counts.quads)).collect::<Vec<_>>()
+        })),
+        quads,
+        midpoints,
+        probes: (0..counts.particles + counts.quads).map(|_| probe(random)).collect(),
+        contacts,
+        normals: vec![Vec3::ZERO; counts.particles as usize],
+        energy_partials: (0..counts.partials).map(|_| random.between(0.0, 1e-3)).collect(),
+        status: Default::default(),
+        settings,
+        particles,
+    };
+    input.copies.positions.fill(Vec3::ZERO);
+    input.copies.velocities.fill(Vec3::ZERO);
+    place_at_the_edges(random, &mut input);
+    input
+}
+
+fn counts(domain: Domain, items: u32) -> Counts {
+    let few = items / 2 + 3;
+    let none = Counts { particles: items, quads: few, pairs: 5, others: 2, partials: items.div_ceil(64), holds: 1 };
+    match domain {
+        Domain::Particle => none,
+        Domain::Quad => Counts { particles: items + 8, quads: items, ..none },
+        Domain::Point => Counts { particles: items - items / 3, quads: items / 3, ..none },
+        Domain::Hold => Counts { particles: 4 * items + 200, holds: items, ..none },
+        // Kernels over all pairs take the length of the array; those over a colour take its span.
+        Domain::Limit | Domain::SeamPair => Counts { particles: 2 * items + 4, pairs: items, others: 0, ..none },
+        Domain::LimitColour | Domain::SeamColour => {
+            Counts { particles: 2 * items + 4, pairs: items, others: 2, ..none }
+        }
+        Domain::Workgroup => Counts { partials: items, ..none },
+    }
+}
+
+fn step_settings(variant: Variant) -> StepSettings {
+    let base = StepSettings::new(&settings(0.03), &Model::default());
+    let base = StepSettings {
+        dt: 1.0 / 700.0,
+        damping: 0.7,
+        push_speed: 1.5,
+        contact_margin: 1e-3,
+        friction: 0.8,
+        hold_rate: 10.0,
+        hold_speed: 0.5,
+        ..base
+    };
+    match variant {
+        Variant::Coulomb => StepSettings { law: Friction::Coulomb, reflection: 0.0, ..base },
+        Variant::Papers => StepSettings {
+            law: Friction::Papers { velocity_kept: 0.7, force_removed: 0.4 },
+            reflection: 0.3,
+            gravity: vec3(0.3, -9.81, 0.1),
+            ..base
+        },
+        Variant::Weightless => StepSettings { gravity: Vec3::ZERO, law: Friction::Coulomb, reflection: 0.1, ..base },
+    }
+}
+
+fn contact(random: &mut Random) -> Contact {
+    if random.one_in(2) {
+        return Contact::default();
+    }
+    let velocity = if random.one_in(4) { Vec3::ZERO } else { random.vector(0.5) };
+    Contact { normal: random.direction(), velocity, touching: true }
+}
+
+fn particles(random: &mut Random, contacts: &[Contact]) -> Particles {
+    let mut particles = Particles::default();
+    for (i, contact) in contacts.iter().enumerate() {
+        let mass = random.between(5e-4, 2e-3);
+        particles.positions.push(match i % 50 {
+            7 => particles.positions[i - 1],
+            _ => random.vector(0.6),
+        });
+        // Some are carried by what they touch, so that friction can hold them.
+        particles.velocities.push(match i % 5 {
+            2 => contact.velocity,
+            _ => random.vector(2.0),
+        });
+        particles.masses.push(mass);
+        particles.inverse_masses.push(if random.one_in(8) { 0.0 } else { 1.0 / mass });
+    }
+    for i in (41..contacts.len()).step_by(97) {
+        particles.positions[i].y = f32::NAN;
+    }
+    for i in (29..contacts.len()).step_by(211) {
+        particles.velocities[i].z = f32::INFINITY;
+    }
+    particles
+}
+
+fn force(random: &mut Random, i: u32, contact: &Contact) -> Vec3 {
+    // Straight onto the surface: nothing is left to rub.
+    if i % 5 == 2 && random.one_in(4) { contact.normal * -0.01 } else { random.vector(0.05) }
+}
+
+fn links(random: &mut Random, particles: u32) -> Csr<Link> {
+    Csr::from_rows((0..particles).map(|i| {
+        let count = if particles < 2 { 0 } else { random.below(9) };
+        let other = |random: &mut Random| match (i % 50, random.one_in(3)) {
+            (7, true) => i - 1,
+            _ => (i + 1 + random.below(particles - 1)) % particles,
+        };
+        let link = |random: &mut Random| Link {
+            other: other(random),
+            rest_length: random.between(0.01, 0.5),
+            stiffness: random.between(1.0, 50.0),
+        };
+        (0..count).map(|_| link(random)).collect::<Vec<_>>()
+    }))
+}
+
+/// Disjoint pairs as limits and as seam pairs, with others before and after the span of the colour.
+fn pairs(
+    random: &mut Random,
+    particles: &Particles,
+    counts: &Counts,
+    domain: Domain,
+) -> (std::ops::Range<u32>, Vec<Limit>, Vec<SeamPair>) {
+    let order = random.shuffled(counts.particles);
+    let count = if matches!(domain, Domain::Limit | Domain::LimitColour | Domain::SeamPair | Domain::SeamColour) {
+        counts.pairs
+    } else {
+        0
+    };
+    let mut limits = Vec::new();
+    let mut seam_pairs = Vec::new();
+    for k in 0..(count + 2 * counts.others).min(counts.particles / 2) {
+        let inside = (counts.others..counts.others + count).contains(&k);
+        // Those of other colours may share particles: nothing may touch them.
+        let ends = if inside {
+            [order[2 * (k - counts.others) as usize], order[2 * (k - counts.others) as usize + 1]]
+        } else {
+            [order[0], order[1]]
+        };
+        let [a, b] = ends.map(|end| particles.positions[end as usize]);
+        let distance = (b - a).length();
+        let rest_length = if distance > 0.0 { distance * random.between(0.7, 1.3) } else { 0.1 };
+        let max_length = match k % 9 {
+            // Exactly as long as it may be.
+            4 if distance > 0.0 => distance,
+            _ => 1.05 * rest_length,
+        };
+        limits.push(Limit { ends, rest_length, max_length });
+        let closing_speed = if random.one_in(3) { 1000.0 } else { random.between(0.0, 2.0) };
+        seam_pairs.push(SeamPair { ends, closing_speed, seam: 0 });
+    }
+    (counts.others..counts.others + count, limits, seam_pairs)
+}
+
+/// Holds of one to a few particles, and some of more than a workgroup has invocations.
+fn holds(random: &mut Random, particles: &Particles, count: u32) -> (Vec<Hold>, Vec<u32>) {
+    let order = random.shuffled(particles.positions.len() as u32);
+    let mut holds: Vec<Hold> = Vec::new();
+    for left in (0..count).rev() {
+        let first = holds.last().map_or(0, |hold| hold.particles.end);
+        let wanted = if random.one_in(40) { 20 + random.below(130) } else { 1 + random.below(3) };
+        let end = first + wanted.min(order.len() as u32 - first - left);
+        let members = &order[first as usize..end as usize];
+        let mean = members.iter().map(|i| particles.positions[*i as usize].y).sum::<f32>() / members.len() as f32;
+        holds.push(Hold { label: String::new(), particles: first..end, height: mean + random.between(-0.1, 0.1) });
+    }
+    (holds, order)
+}
+
+fn quads(random: &mut Random, counts: &Counts) -> Vec<[u32; 4]> {
+    (0..counts.quads)
+        .map(|k| {
+            let mut corner = || random.below(counts.particles);
+            let [a, b, c, d] = [corner(), corner(), corner(), corner()];
+            [a, b, c, if k % 4 == 1 { NO_CORNER } else { d }]
+        })
+        .collect()
+}
+
+fn probe(random: &mut Random) -> Probe {
+    if random.one_in(6) {
+        return Probe::default();
+    }
+    let normal = if random.one_in(60) { Vec3::splat(f32::NAN) } else { random.direction() };
+    let distance = random.between(-0.004, 0.004);
+    Probe { normal, distance, velocity: random.vector(0.5), hit: true }
+}
+
+/// Twice as many open particles as sewn ones, joined in groups of one to a few.
+fn open_particles(random: &mut Random, sewn: u32) -> (Particles, Csr<u32>) {
+    let count = 2 * sewn;
+    let nothing = vec![Contact::default(); count as usize];
+    let open = particles(random, &nothing);
+    let mut rows: Vec<Vec<u32>> = random.shuffled(count)[..sewn as usize].iter().map(|i| vec![*i]).collect();
+    let taken: Vec<u32> = rows.iter().flatten().copied().collect();
+    for i in (0..count).filter(|i| !taken.contains(i)) {
+        rows[random.below(sewn) as usize].push(i);
+    }
+    rows.iter_mut().for_each(|row| row.sort_unstable());
+    (open, Csr::from_rows(rows))
+}
+
+/// Maps in which the front and the back see different bodies.
+fn layers() -> &'static Layers {
+    static LAYERS: OnceLock<Layers> = OnceLock::new();
+    LAYERS.get_or_init(|| {
+        let ball = uv_sphere(vec3(-0.05, 0.0, 0.0), 0.4, 16);
+        let block = box_mesh(vec3(0.0, -0.45, -0.55), vec3(0.25, 0.1, -0.1));
+        Layers::draw(gpu(), &[(&ball, 0.005), (&block, 0.01)], 0.031)
+    })
+}
+
+/// Moves some points to the borders of the maps, the centre and the surface of the sphere, and to where there is no number.
+fn place_at_the_edges(random: &mut Random, input: &mut Input) {
+    let frame = input.layers.read.frame;
+    let count = input.particle_count();
+    for i in 0..count + input.midpoints.positions.len() {
+        let (position, velocity) = if i < count {
+            (&mut input.particles.positions[i], &mut input.particles.velocities[i])
+        } else {
+            (&mut input.midpoints.positions[i - count], &mut input.midpoints.velocities[i - count])
+        };
+        match i % 31 {
+            5 => {
+                // On a border between two texels, also the outermost ones.
+                *velocity = Vec3::ZERO;
+                position.x = frame.origin_x + frame.texel * random.below(frame.columns + 1) as f32;
+                position.y = frame.origin_y - frame.texel * random.below(frame.rows + 1) as f32;
+            }
+            13 => *position = input.ball.centre,
+            // Just at the sphere.
+            17 => {
+                *position = input.ball.centre + random.direction() * (input.ball.radius + random.between(-0.01, 0.01))
+            }
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! Sheets alone, under every rule, and on spheres: device and reference agree bit for bit over whole runs.
+
+use crate::life::Life;
+use toile_model::{Model, StepSettings};
+use toile_scene::{Body, Cloth, Friction, Rule, Scene, Sphere};
+use toile_workspace::{Layers, finish_frame, first_difference, gpu, scene, uv_sphere, vec3_words};
+
+const RULES: [Rule; 6] = [Rule::None, Rule::Zero, Rule::Average, Rule::Directional, Rule::Position, Rule::Predictive];
+
+fn sheet_model(scene: &Scene) -> Model {
+    let Cloth::Sheet(sheet) = &scene.cloths[0] else { panic!("{} has a sheet", scene.name) };
+    Model::from_sheet(sheet, &scene.settings)
+}
+
+fn sphere(scene: &Scene) -> Option<Sphere> {
+    scene.bodies.iter().find_map(|body| match body {
+        Body::Sphere(sphere) => Some(*sphere),
+        Body::Mesh(_) => None,
+    })
+}
+
+#[test]
+fn a_hanging_sheet_agrees_under_every_rule() {
+    for n in ["16", "33"] {
+        for rule in RULES {
+            let mut hang = scene("hang", &[("n", n)]);
+            hang.settings.velocity_modification.rule = rule;
+            let model = sheet_model(&hang);
+            let mut life = Life::new(&model, &StepSettings::new(&hang.settings, &model), None, None);
+            let status = life.agree(&format!("hang {n} {rule:?}"), 20);
+            assert!(status.elongation_max > 0.0, "the sheet hangs");
+        }
+    }
+}
+
+#[test]
+fn a_sheet_on_a_sphere_agrees_under_every_rule_and_both_friction_laws() {
+    for (name, laws) in [
+        ("ball", vec![Friction::Coulomb, Friction::Papers { velocity_kept: 0.9, force_removed: 0.2 }]),
+        ("moving-ball", vec![Friction::Coulomb]),
+    ] {
+        for law in laws {
+            for rule in RULES {
+                // Lower, so that it touches within few frames.
+                let mut ball = scene(name, &[("n", "17"), ("sheet.0.corner", "[-0.5, 0.256, 0.5]")]);
+                ball.settings.velocity_modification.rule = rule;
+                ball.settings.friction = law;
+                let model = sheet_model(&ball);
+                let mut life = Life::new(&model, &StepSettings::new(&ball.settings, &model), None, sphere(&ball));
+                life.agree(&format!("{name} {rule:?} {law:?}"), 15);
+                assert!(life.contacts_max > 0, "{name} {rule:?}: the sheet touches the sphere");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_sheet_on_maps_and_a_sphere_together_agrees() {
+    let ball = scene("ball", &[("n", "17"), ("sheet.0.corner", "[-0.5, 0.256, 0.5]")]);
+    let model = sheet_model(&ball);
+    let settings = StepSettings::new(&ball.settings, &model);
+    let body = uv_sphere(glam::vec3(0.2, 0.05, 0.0), 0.2, 24);
+    let layers = Layers::draw(gpu(), &[(&body, settings.thickness)], 0.01);
+    let mut life = Life::new(&model, &settings, Some(&layers), sphere(&ball));
+    life.agree("a sphere and maps", 15);
+    assert!(life.contacts_max > 4, "{} contacts", life.contacts_max);
+}
+
+/// As a host records them: whole frames, several in one go, so that every step of a frame finds its own sphere.
+#[test]
+fn whole_frames_of_a_simulation_agree() {
+    for name in ["hang", "moving-ball"] {
+        let lower = ("sheet.0.corner", "[-0.5, 0.256, 0.5]");
+        let scene = if name == "hang" { scene(name, &[("n", "17")]) } else { scene(name, &[("n", "17"), lower]) };
+        let model = sheet_model(&scene);
+        let settings = StepSettings::new(&scene.settings, &model);
+        let colliders = toile::Colliders { maps: None, sphere: sphere(&scene) };
+        let mut simulation = toile::Simulation::new(&gpu().device, &model, &settings, colliders).expect("it fits");
+        let colliders = toile_reference::Colliders { maps: None, sphere: sphere(&scene) };
+        let mut reference = toile_reference::Reference::new(&model, &settings, colliders);
+        for _ in 0..3 {
+            gpu().run(|encoder| (0..5).for_each(|_| simulation.record(&gpu().device, encoder)));
+            (0..5).for_each(|_| reference.frame());
+            let positions = vec3_words(&gpu().vec3s(&simulation.frame().positions));
+            let fault = first_difference(&positions, &vec3_words(reference.positions()));
+            assert!(fault.is_none(), "{name} after step {}: {}", simulation.step(), fault.expect("there is one"));
+            assert_eq!(finish_frame(&mut simulation).expect("it stays finite"), reference.status(), "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_force_of_the_wrong_sign_is_seen_in_the_first_step() {
+    let hang = scene("hang", &[("n", "16")]);
+    let model = sheet_model(&hang);
+    let settings = StepSettings::new(&hang.settings, &model);
+    let mut life = Life::new(&model, &settings, None, None);
+    let upward = StepSettings { gravity: -settings.gravity, ..settings };
+    life.reference = toile_reference::Reference::new(&model, &upward, Default::default());
+    gpu().run(|encoder| life.solver.record_steps(&gpu().device, encoder, 1));
+    life.reference.step();
+    assert!(life.difference().is_some_and(|fault| fault.starts_with("positions")));
+}

@@ -1,0 +1,5 @@
+//! Physics on the device: what must hold whatever the implementation.
+
+mod friction;
+mod laws;
+mod stability;

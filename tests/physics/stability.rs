@@ -1,0 +1,80 @@
+//! Which rules stay bounded on the hanging sheet over 2 s, and how a run that diverges ends.
+
+use toile::{Error, Simulation};
+use toile_model::{Model, StepSettings};
+use toile_scene::{Cloth, Rule};
+use toile_workspace::{advance, gpu, scene};
+
+const FRAMES: u32 = 120;
+
+/// The sheet falls by its own height of 1 m and a stretch of as much: 6.3 m/s. A free corner that whips gets a few times that.
+const FASTEST: f32 = 30.0;
+
+struct Run {
+    simulation: Simulation,
+    /// Largest speed [m/s] and elongation [1] at the end of any frame.
+    speed_max: f32,
+    elongation_max: f32,
+    end: Result<(), Error>,
+}
+
+fn hang(n: u32, rule: Rule) -> Run {
+    let mut hang = scene("hang", &[("n", &n.to_string())]);
+    hang.settings.velocity_modification.rule = rule;
+    let Cloth::Sheet(sheet) = &hang.cloths[0] else { panic!("hang has a sheet") };
+    let model = Model::from_sheet(sheet, &hang.settings);
+    let settings = StepSettings::new(&hang.settings, &model);
+    let simulation = Simulation::new(&gpu().device, &model, &settings, Default::default()).expect("it fits the device");
+    let mut run = Run { simulation, speed_max: 0.0, elongation_max: 0.0, end: Ok(()) };
+    for _ in 0..FRAMES {
+        match advance(&mut run.simulation) {
+            Ok(status) => {
+                run.speed_max = run.speed_max.max(status.speed_max);
+                run.elongation_max = run.elongation_max.max(status.elongation_max);
+            }
+            Err(error) => {
+                run.end = Err(error);
+                break;
+            }
+        }
+    }
+    run
+}
+
+#[test]
+fn no_rule_and_the_predictive_rule_stay_bounded() {
+    let free = hang(32, Rule::None);
+    assert!(free.end.is_ok() && free.speed_max < FASTEST, "{} m/s", free.speed_max);
+    let held = hang(32, Rule::Predictive);
+    assert!(held.end.is_ok() && held.speed_max < FASTEST, "{} m/s", held.speed_max);
+    assert!(held.elongation_max < 0.5 * free.elongation_max, "{} and {}", held.elongation_max, free.elongation_max);
+}
+
+/// Applied colour after colour the papers' rules flutter, and Provot's leaves the velocities that it does not let act.
+#[test]
+fn the_other_rules_do_not() {
+    for rule in [Rule::Zero, Rule::Average, Rule::Directional, Rule::Position] {
+        let run = hang(32, rule);
+        assert!(run.end.is_err() || run.speed_max > 10.0 * FASTEST, "{rule:?}: {} m/s", run.speed_max);
+    }
+}
+
+#[test]
+fn a_run_that_diverges_ends_as_an_error_with_step_and_particle() {
+    let run = hang(32, Rule::Directional);
+    let Err(error @ Error::Diverged { step, particle, count }) = run.end else { panic!("it diverges: {:?}", run.end) };
+    assert_eq!(step, run.simulation.step());
+    let frame = run.simulation.frame();
+    let broken: Vec<usize> = gpu()
+        .vec3s(&frame.positions)
+        .iter()
+        .enumerate()
+        .filter(|(_, position)| !position.is_finite())
+        .map(|(particle, _)| particle)
+        .collect();
+    // A particle whose velocity alone is not finite counts too.
+    assert!(broken.len() <= count as usize && count <= frame.particle_count, "{count} of {}", frame.particle_count);
+    assert!(broken.first().is_none_or(|first| particle as usize <= *first), "particle {particle}, {broken:?}");
+    let text = error.to_string();
+    assert!(text.contains(&format!("step {step}")) && text.contains(&format!("particle {particle}")), "{text}");
+}

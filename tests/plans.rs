@@ -1,0 +1,78 @@
+//! The passes that each fixture gets: a scene pays for nothing that it does not have.
+
+use std::fmt::Write;
+use toile_gpu::Plan;
+use toile_kernels::{Kernel, TABLE};
+use toile_model::{Model, Needs, StepSettings};
+use toile_scene::{Body, Cloth, Rule, Scene};
+use toile_workspace::{GARMENTS, SCENES, garment, scene, settings};
+
+fn plan(model: &Model, settings: &StepSettings, bodies: &[Body]) -> Plan {
+    let maps = bodies.iter().any(|body| matches!(body, Body::Mesh(_)));
+    let sphere = bodies.iter().any(|body| matches!(body, Body::Sphere(_)));
+    Plan::new(model, &Needs::new(model, settings, maps, sphere), settings.sweeps)
+}
+
+fn plan_of_scene(scene: &Scene) -> Plan {
+    let Cloth::Sheet(sheet) = &scene.cloths[0] else { panic!("{} has a sheet", scene.name) };
+    let model = Model::from_sheet(sheet, &scene.settings);
+    plan(&model, &StepSettings::new(&scene.settings, &model), &scene.bodies)
+}
+
+#[test]
+fn plans_of_the_scenes() {
+    let mut text = String::new();
+    for name in SCENES {
+        writeln!(text, "# {name}\n{}", plan_of_scene(&scene(name, &[]))).expect("text");
+    }
+    insta::assert_snapshot!(text);
+}
+
+#[test]
+fn plans_of_the_garments() {
+    let body = [Body::Mesh(Default::default())];
+    let settings = settings(0.02);
+    let mut text = String::new();
+    for name in GARMENTS {
+        let open = Model::from_garment(&garment(name), &settings).unwrap_or_else(|error| panic!("{error}"));
+        let (sewn, _) = open.sewn();
+        let sewing = StepSettings::new(&settings, &open).sewing();
+        let draping = StepSettings::new(&settings, &sewn).draping();
+        writeln!(text, "# {name}, open\n{}", plan(&open, &sewing, &body)).expect("text");
+        writeln!(text, "# {name}, sewn\n{}", plan(&sewn, &draping, &body)).expect("text");
+    }
+    insta::assert_snapshot!(text);
+}
+
+#[test]
+fn plans_of_the_rules() {
+    let mut text = String::new();
+    for rule in [Rule::None, Rule::Zero, Rule::Average, Rule::Directional, Rule::Position, Rule::Predictive] {
+        let mut hang = scene("hang", &[("sweeps", "2")]);
+        hang.settings.velocity_modification.rule = rule;
+        writeln!(text, "# {rule:?}, two sweeps\n{}", plan_of_scene(&hang)).expect("text");
+    }
+    insta::assert_snapshot!(text);
+}
+
+#[test]
+fn the_passes_of_a_plan_stand_in_the_order_of_the_table() {
+    let place = |kernel: &Kernel| TABLE.iter().position(|row| row.kernel == *kernel).expect("every kernel has a row");
+    for name in SCENES {
+        let plan = plan_of_scene(&scene(name, &[]));
+        let places: Vec<usize> = plan.kernels().iter().map(place).collect();
+        assert!(places.is_sorted(), "{name}: {:?}", plan.kernels());
+    }
+}
+
+#[test]
+fn a_dispatch_of_any_size_reaches_every_item_once() {
+    let pass = |items| toile_gpu::Pass { kernel: Kernel::Euler, items: 0..items, colour: None };
+    for items in [1, 64, 65, 65_535 * 64, 65_535 * 64 + 1, 20_000_000] {
+        let [x, y] = pass(items).workgroups();
+        assert!(x <= 65_535 && y <= 65_535);
+        let reached = u64::from(x) * u64::from(y) * 64;
+        assert!(reached >= u64::from(items), "{items} items, {x} × {y} workgroups");
+        assert!(reached < 2 * u64::from(items) + 64, "{items} items, {x} × {y} workgroups");
+    }
+}

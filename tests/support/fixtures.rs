@@ -1,0 +1,46 @@
+//! The fixtures, read as the program reads them.
+
+use std::path::PathBuf;
+use toile_files::{BodyOptions, read_body, read_garment, read_scene};
+use toile_scene::{Fabric, Garment, Mesh, Scene, Settings, VelocityModification};
+
+/// Names of the scenes in `fixtures/scenes`.
+pub const SCENES: [&str; 3] = ["hang", "ball", "moving-ball"];
+
+/// Names of the garments in `fixtures/garments`.
+pub const GARMENTS: [&str; 5] = ["dress", "shirt_sleeveless", "shirt_sleeves", "skirt", "trousers"];
+
+/// A path below `fixtures`.
+pub fn fixture(path: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(path)
+}
+
+/// A scene by name, with some keys set.
+pub fn scene(name: &str, overrides: &[(&str, &str)]) -> Scene {
+    let overrides: Vec<_> = overrides.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
+    let file = read_scene(&fixture(&format!("scenes/{name}.toml")), &overrides);
+    file.unwrap_or_else(|error| panic!("{error}")).scene
+}
+
+/// A garment by name.
+pub fn garment(name: &str) -> Garment {
+    read_garment(&fixture(&format!("garments/{name}.json"))).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The built-in body in the pose that it is dressed in.
+pub fn body() -> Mesh {
+    let options = BodyOptions { clip: Some("apose_to_walk".to_owned()), ..Default::default() };
+    read_body(&fixture("bodies/walking_woman.glb"), &options).unwrap_or_else(|error| panic!("{error}")).mesh
+}
+
+/// Settings of a garment in cotton at a spacing [m], as the program dresses it: predictive rule, two sweeps, Coulomb friction.
+pub fn settings(spacing: f64) -> Settings {
+    let default = Settings::new(Fabric::preset("cotton").expect("cotton is a preset"));
+    let velocity_modification = VelocityModification { sweeps: 2, ..default.velocity_modification };
+    Settings { spacing, velocity_modification, ..default }
+}
+
+/// Settings of the sheets of `fixtures/scenes`.
+pub fn sheet_settings() -> Settings {
+    scene("hang", &[]).settings
+}

@@ -1,0 +1,76 @@
+//! The device of the tests. Without an adapter they fail and say what to install; they are never skipped.
+
+use std::sync::OnceLock;
+
+/// What to do where there is no adapter.
+pub const INSTALL_HINT: &str = "the GPU tests need a Vulkan adapter; on Debian or Ubuntu \
+    `apt-get install -y mesa-vulkan-drivers libvulkan1` brings one that works on the CPU";
+
+/// A device with its queue.
+#[derive(Debug)]
+pub struct Gpu {
+    /// The device. It has the limits of WebGPU, so that a test fails where a browser would.
+    pub device: wgpu::Device,
+    /// Its queue.
+    pub queue: wgpu::Queue,
+    /// Name of its adapter.
+    pub adapter: String,
+}
+
+/// The device of this test process.
+///
+/// # Panics
+/// When there is no adapter or it gives no device.
+pub fn gpu() -> &'static Gpu {
+    static GPU: OnceLock<Gpu> = OnceLock::new();
+    GPU.get_or_init(|| {
+        pollster::block_on(open(wgpu::Backends::all())).unwrap_or_else(|fault| panic!("{fault}: {INSTALL_HINT}"))
+    })
+}
+
+impl Gpu {
+    /// Opens the best adapter of these backends.
+    ///
+    /// # Errors
+    /// When there is none, with what wgpu says and what to install.
+    pub fn open(backends: wgpu::Backends) -> Result<Self, String> {
+        pollster::block_on(open(backends)).map_err(|fault| format!("{fault}: {INSTALL_HINT}"))
+    }
+
+    /// Submits what `record` records and waits until it is done.
+    pub fn run(&self, record: impl FnOnce(&mut wgpu::CommandEncoder)) {
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        record(&mut encoder);
+        self.queue.submit([encoder.finish()]);
+        self.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device answers");
+    }
+
+    /// Reads a buffer back as 32-bit words.
+    pub fn words(&self, buffer: &wgpu::Buffer) -> Vec<u32> {
+        let bytes = toile_gpu::readback::read_buffer(&self.device, &self.queue, buffer).expect("the device answers");
+        bytemuck::pod_collect_to_vec(&bytes)
+    }
+
+    /// Reads a buffer of vec4 back: xyz and w of each.
+    pub fn vec4s(&self, buffer: &wgpu::Buffer) -> Vec<glam::Vec4> {
+        toile_gpu::readback::read_vec4s(&self.device, &self.queue, buffer).expect("the device answers")
+    }
+
+    /// Reads the xyz of a buffer of vec4 back.
+    pub fn vec3s(&self, buffer: &wgpu::Buffer) -> Vec<glam::Vec3> {
+        self.vec4s(buffer).into_iter().map(glam::Vec4::truncate).collect()
+    }
+}
+
+async fn open(backends: wgpu::Backends) -> Result<Gpu, String> {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+        backends,
+        ..wgpu::InstanceDescriptor::new_without_display_handle()
+    });
+    let options =
+        wgpu::RequestAdapterOptions { power_preference: wgpu::PowerPreference::HighPerformance, ..Default::default() };
+    let adapter = instance.request_adapter(&options).await.map_err(|error| error.to_string())?;
+    let descriptor = wgpu::DeviceDescriptor { label: Some("toile tests"), ..Default::default() };
+    let (device, queue) = adapter.request_device(&descriptor).await.map_err(|error| error.to_string())?;
+    Ok(Gpu { device, queue, adapter: adapter.get_info().name })
+}
