@@ -78,10 +78,16 @@ fn write_files(folder: &Path, bodies: &[Shown<'_>], cloths: &[Shown<'_>], metric
     }
     write_glb(&folder.join("dressed.glb"), &meshes)?;
     write_obj(&folder.join("garment.obj"), &joined(cloths))?;
-    for (name, view) in [("front.png", View::Front), ("back.png", View::Back), ("side.png", View::Side)] {
+    let views =
+        [("front", View::Front), ("three_quarter", View::ThreeQuarter), ("side", View::Side), ("back", View::Back)];
+    let mut pictures = Vec::new();
+    for (name, view) in views {
         interrupt::check()?;
-        picture::save_png(&folder.join(name), &picture::render(&drawn, view, PICTURE_HEIGHT)?)?;
+        let picture = picture::render(&drawn, view, PICTURE_HEIGHT)?;
+        picture::save_png(&folder.join(format!("{name}.png")), &picture)?;
+        pictures.push(picture);
     }
+    picture::save_png(&folder.join("all_views.png"), &picture::strip(&pictures))?;
     write_atomically(&folder.join("metrics.json"), serde_json::to_string_pretty(metrics)?.as_bytes())?;
     Ok(())
 }

@@ -7,7 +7,16 @@ use std::process::{Command, Output};
 use tempfile::TempDir;
 
 /// The files of every run.
-const FILES: [&str; 6] = ["back.png", "dressed.glb", "front.png", "garment.obj", "metrics.json", "side.png"];
+const FILES: [&str; 8] = [
+    "all_views.png",
+    "back.png",
+    "dressed.glb",
+    "front.png",
+    "garment.obj",
+    "metrics.json",
+    "side.png",
+    "three_quarter.png",
+];
 
 /// Calls of the program in an empty folder, on a machine without a session.
 struct Journey {

@@ -4,7 +4,7 @@ use crate::support::{GRAVITY, Grid, box_mesh, settings};
 use glam::{DVec3, Vec3, vec3};
 use toile_model::{NO_CORNER, StepSettings};
 use toile_reference::maps::{BodyMaps, Surface, render_maps};
-use toile_reference::{Ball, Colliders, Contact, Probe, Reference, Response, step};
+use toile_reference::{Ball, Colliders, Contact, Probe, Reference, step};
 use toile_scene::{Friction, Rule, Sphere, SphereMotion};
 
 /// Coulomb coefficient of the plate: it holds up to 16.7°.
@@ -96,20 +96,40 @@ fn a_rebound_gives_back_its_part_of_the_approach() {
         position.z = 0.0005;
     }
     let probes = step::sample_maps(&model.positions, &[vec3(0.1, 0.0, -1.0); 4], &maps, &settings);
-    let midpoints =
-        toile_reference::Midpoints { positions: model.positions.clone(), velocities: vec![vec3(0.1, 0.0, -1.0); 4] };
-    for response in step::quad_responses(&midpoints, &probes, &settings) {
-        assert!(response.touching);
-        assert!((response.change - vec3(0.0, 0.0, 1.5)).length() < 1e-6, "{response:?}");
-        assert_eq!(response.push.length(), 0.0);
+    let mut particles = toile_reference::Particles::new(&model);
+    particles.velocities = vec![vec3(0.1, 0.0, -1.0); 4];
+    let midpoints = step::quad_midpoints(&particles.positions, &particles.velocities, &model.quads);
+    let seen = step::Probes { particles: &probes, quads: &[Probe::default()] };
+    step::collide(&mut particles, &model.particle_quads, &midpoints, seen, &settings);
+    for velocity in particles.velocities {
+        assert!((velocity - vec3(0.1, 0.0, 0.5)).length() < 1e-6, "{velocity}");
     }
+}
+
+#[test]
+fn a_colliding_midpoint_stops_its_corners_and_pushes_none_away() {
+    let model = Grid::horizontal(2, 0.02).model();
+    let settings = StepSettings { friction: 0.0, ..settings() };
+    let mut particles = toile_reference::Particles::new(&model);
+    // One corner falls, one rises: the midpoint falls.
+    particles.velocities = vec![vec3(0.0, -1.0, 0.0), vec3(0.0, 0.4, 0.0), Vec3::ZERO, Vec3::ZERO];
+    let before = particles.velocities.clone();
+    let midpoints = step::quad_midpoints(&particles.positions, &particles.velocities, &model.quads);
+    let touched = [Probe { normal: Vec3::Y, distance: 0.0, velocity: Vec3::ZERO, hit: true }];
+    let seen = step::Probes { particles: &[Probe::default(); 4], quads: &touched };
+    step::collide(&mut particles, &model.particle_quads, &midpoints, seen, &settings);
+    assert!((particles.velocities[0].y + 0.4).abs() < 1e-6, "{}", particles.velocities[0]);
+    assert_eq!(particles.velocities[1..], before[1..], "who does not approach is left alone");
+    let mean: f32 = particles.velocities.iter().map(|v| v.y).sum();
+    assert!(mean.abs() < 1e-6, "the midpoint stops: {mean}");
 }
 
 #[test]
 fn the_nearer_side_of_the_plate_answers() {
     let maps = plate();
     let settings = settings();
-    let points = [-0.01, -0.09, 0.01, -0.11].map(|z| vec3(0.203, 0.104, z));
+    // Farther out than the reach of four texels of the plate's maps nothing answers.
+    let points = [-0.01, -0.09, 0.1, -0.2].map(|z| vec3(0.203, 0.104, z));
     let probes = step::sample_maps(&points, &[Vec3::ZERO; 4], &maps, &settings);
     assert_eq!(probes.iter().map(|probe| probe.hit).collect::<Vec<_>>(), [true, true, false, false]);
     assert_eq!((probes[0].normal, probes[1].normal), (Vec3::Z, Vec3::NEG_Z));
@@ -122,17 +142,16 @@ fn the_nearer_side_of_the_plate_answers() {
 
 /// Smallest distance [m] of a particle to a sphere of radius `reach` [m] over 2 s of a sheet dropped on one of 0.2 m.
 ///
-/// The mean of D §6 lets a particle in by part of a step's travel when its quads answer less than it does, so the step is
-/// short here: the cloth strikes at 1 m/s, 0.4 mm per step, and its thickness is 1 mm.
+/// The cloth strikes at 1 m/s, 1.7 mm per step; its own contact has the last word, so it keeps its thickness of 1 mm all the same.
 fn sphere_clearance(motion: SphereMotion, reach: f32) -> f32 {
     let sphere = Sphere { centre: DVec3::new(0.0, -0.25, 0.0), radius: 0.2, motion };
-    let settings = StepSettings { dt: 1.0 / 2400.0, rule: Rule::Predictive, sweeps: 2, damping: 0.5, ..settings() };
+    let settings = StepSettings { dt: 1.0 / 600.0, rule: Rule::Predictive, sweeps: 2, damping: 0.5, ..settings() };
     let model = Grid::horizontal(21, 0.03).model();
     let colliders = Colliders { maps: None, sphere: Some(sphere) };
     let mut reference = Reference::new(&model, &settings, colliders);
     let mut touched = 0;
     let mut clearance = f32::INFINITY;
-    for k in 0..4800 {
+    for k in 0..1200 {
         reference.step();
         touched = touched.max(reference.contacts().iter().filter(|contact| contact.touching).count());
         let centre = Ball::at(&sphere, k, &settings).centre;
@@ -148,7 +167,7 @@ fn sphere_clearance(motion: SphereMotion, reach: f32) -> f32 {
 #[test]
 fn a_sheet_dropped_on_a_sphere_stays_outside() {
     let clearance = sphere_clearance(SphereMotion::Still, 0.2);
-    assert!(clearance > 4e-4, "{clearance}");
+    assert!(clearance > 9e-4, "{clearance}");
 }
 
 #[test]
@@ -180,8 +199,9 @@ fn a_contact_remembers_the_surface_it_touched() {
     let velocity = vec3(0.1, 0.2, 0.3);
     let mut probes = [Probe { normal: Vec3::Y, distance: 0.0, velocity, hit: true }; 4];
     probes[0].hit = false;
-    let none = [Response::default()];
-    let contacts = step::collide(&mut particles, &model.particle_quads, &probes, &none, &settings());
+    let midpoints = step::quad_midpoints(&particles.positions, &particles.velocities, &model.quads);
+    let seen = step::Probes { particles: &probes, quads: &[Probe::default()] };
+    let contacts = step::collide(&mut particles, &model.particle_quads, &midpoints, seen, &settings());
     assert_eq!(contacts[0], Contact::default());
     assert_eq!(contacts[1], Contact { normal: Vec3::Y, velocity, touching: true });
     assert!((particles.velocities[1].y - velocity.y).abs() < 1e-6);
