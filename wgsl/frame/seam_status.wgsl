@@ -13,6 +13,8 @@ fn seam_status(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgr
     if i < arrayLength(&seam_pairs) {
         let pair = seam_pairs[i];
         let gap = length(positions[pair.second].xyz - positions[pair.first].xyz);
-        atomicMax(&status.seam_gap_max, bitcast<u32>(gap));
+        if gap > 0.0 {
+            atomicMax(&status.seam_gap_max, bitcast<u32>(gap));
+        }
     }
 }

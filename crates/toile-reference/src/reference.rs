@@ -99,7 +99,9 @@ impl Reference {
             step::reaction(&mut forces, particles, &self.contacts, settings);
         }
         step::euler(&mut particles.velocities, &forces, &particles.inverse_masses, dt);
-        step::hold_edges(particles, &model.holds, &model.held_particles, settings);
+        if settings.hold_rate > 0.0 {
+            step::hold_edges(particles, &model.holds, &model.held_particles, settings);
+        }
         for _ in 0..settings.sweeps {
             self.sweep_velocities();
         }
@@ -172,7 +174,7 @@ impl Reference {
     /// What the simulation reports of its state.
     pub fn status(&self) -> Status {
         let particles = frame::particle_status(&self.particles);
-        let limits = frame::limit_status(&self.particles.positions, &self.model.limits, self.settings.threshold);
+        let limits = frame::limit_status(&self.particles.positions, &self.model.limits);
         Status {
             step: self.step,
             non_finite_count: particles.non_finite_count,

@@ -8,21 +8,22 @@ use toile_model::Limit;
 pub struct LimitStatus {
     /// Largest elongation [1]; 0 when no spring is longer than its rest length.
     pub elongation_max: f32,
-    /// Number of springs with an elongation above the threshold.
+    /// Number of limits that are exceeded.
     pub over_long_count: u32,
 }
 
 /// Elongation length/rest − 1 of every structural and shear spring, which are those that have a limit.
-/// `positions` [m] has the shape [particle_count]; `threshold` [1] is the elongation that the limits allow.
-pub fn limit_status(positions: &[Vec3], limits: &[Limit], threshold: f32) -> LimitStatus {
+/// `positions` [m] has the shape [particle_count].
+pub fn limit_status(positions: &[Vec3], limits: &[Limit]) -> LimitStatus {
     let mut status = LimitStatus::default();
     for limit in limits {
         let [a, b] = limit.ends.map(|end| positions[end as usize]);
-        let elongation = (b - a).length() / limit.rest_length - 1.0;
+        let length = (b - a).length();
+        let elongation = length / limit.rest_length - 1.0;
         if elongation > status.elongation_max {
             status.elongation_max = elongation;
         }
-        if elongation > threshold {
+        if length > limit.max_length {
             status.over_long_count += 1;
         }
     }

@@ -10,9 +10,9 @@ pub struct ParticleStatus {
     pub non_finite_count: u32,
     /// The first of them, by index.
     pub first_non_finite: Option<u32>,
-    /// Largest speed [m/s] of all particles whose speed is a number.
+    /// Largest speed [m/s] of all particles that are finite.
     pub speed_max: f32,
-    /// Kinetic energy [J] of the moving particles of each group of 64, shape [particle_count / 64, rounded up].
+    /// Kinetic energy [J] of the moving, finite particles of each group of 64, shape [particle_count / 64, rounded up].
     pub energy_partials: Vec<f32>,
 }
 
@@ -23,6 +23,7 @@ pub fn particle_status(particles: &Particles) -> ParticleStatus {
         if !(position.is_finite() && velocity.is_finite()) {
             status.non_finite_count += 1;
             status.first_non_finite.get_or_insert(i as u32);
+            continue;
         }
         let speed = velocity.length();
         if speed > status.speed_max {
@@ -37,8 +38,8 @@ pub fn particle_status(particles: &Particles) -> ParticleStatus {
 fn group_energy(particles: &Particles, group: &[usize]) -> f32 {
     let mut energies = [0.0; GROUP];
     for (energy, &i) in energies.iter_mut().zip(group) {
-        if particles.inverse_masses[i] > 0.0 {
-            let velocity = particles.velocities[i];
+        let velocity = particles.velocities[i];
+        if particles.inverse_masses[i] > 0.0 && particles.positions[i].is_finite() && velocity.is_finite() {
             *energy = 0.5 * (particles.masses[i] * velocity.dot(velocity));
         }
     }
