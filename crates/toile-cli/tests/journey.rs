@@ -292,3 +292,43 @@ fn ctrl_c_ends_the_run_and_leaves_nothing() {
     assert!(output.stdout.is_empty());
     assert_eq!(journey.names(""), [] as [&str; 0]);
 }
+
+/// Numbers of a dressed body that must hold for any garment of ours.
+fn check_dressed(metrics: &Value) {
+    let number = |name: &str| metrics[name].as_f64().unwrap_or_else(|| panic!("{name} is a number"));
+    assert_eq!(number("non_finite_count"), 0.0);
+    assert!(number("seam_gap_max_mm") <= 2.0, "{metrics}");
+    assert!(number("penetration_p99_mm") <= 1.0 && number("penetration_max_mm") <= 5.0, "{metrics}");
+    assert!(number("false_contact_fraction") < 0.01, "{metrics}");
+    assert!(number("steps_sewing") < 400.0, "{metrics}");
+}
+
+#[test]
+fn the_built_in_dress_is_sewn_and_comes_to_rest() {
+    let journey = Journey::new();
+    let output = journey.run(&["dress", "--spacing", "3cm", "--quiet"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(journey.names("out"), FILES);
+    let metrics = journey.metrics("out");
+    check_dressed(&metrics);
+    // Worn, not fallen: the dress hangs from the shoulders, its hem is at the knee.
+    let text = fs::read_to_string(journey.folder.path().join("out/garment.obj")).expect("the garment");
+    let heights: Vec<f64> =
+        text.lines().filter_map(|line| line.strip_prefix("v ")?.split(' ').nth(1)?.parse().ok()).collect();
+    let [low, high] = heights.iter().fold([f64::MAX, f64::MIN], |[low, high], y| [low.min(*y), high.max(*y)]);
+    assert!(high > 1.3 && high < 1.45, "the shoulders are at {high} m");
+    assert!(low > 0.35 && low < 0.65, "the hem is at {low} m");
+}
+
+#[test]
+fn an_outer_garment_lies_over_an_inner_one_by_the_reference_too() {
+    let journey = Journey::new();
+    let [shirt, skirt] = ["garments/shirt_sleeveless.json", "garments/skirt.json"].map(fixture);
+    let garments = ["--garment", shirt.as_str(), "--garment", skirt.as_str()];
+    let base = ["dress", "--spacing", "6cm", "--quiet", "--backend", "reference"];
+    let output = journey.run(&[&base[..], &garments[..]].concat());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let metrics = journey.metrics("out");
+    check_dressed(&metrics);
+    assert_eq!(metrics["cloths"].as_array().map(Vec::len), Some(2));
+}

@@ -13,7 +13,7 @@ const BODY_CLIP: &str = "apose_to_walk";
 /// The built-in garment.
 const GARMENT: &str = include_str!("../../../../fixtures/garments/dress.json");
 /// A garment is pulled at by gravity, seams and body at once: one sweep leaves more of the stretch.
-const SWEEPS: u32 = 2;
+const SWEEPS: u32 = 4;
 
 /// Reads the outfit as a scene. It runs until the garments are at rest, so it has no frames.
 pub fn read(outfit: &Outfit) -> Result<SceneFile> {
