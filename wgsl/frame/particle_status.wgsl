@@ -1,4 +1,4 @@
-// Counts particles that are not finite, finds the largest speed and sums the kinetic energy of each workgroup.
+// Counts particles that are not finite or run away, finds the largest speed and sums the kinetic energy of each workgroup.
 #import shared/item
 #import shared/step_params
 #import shared/status
@@ -8,6 +8,9 @@
 @group(0) @binding(3) var<storage, read> velocities: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read_write> status: Status;
 @group(0) @binding(5) var<storage, read_write> energy_partials: array<f32>;
+
+// No cloth moves faster than this [m/s]: a particle that does counts as not finite, before it is.
+const RUNAWAY_SPEED: f32 = 1000.0;
 
 fn is_finite(value: f32) -> bool {
     return (bitcast<u32>(value) & 0x7f800000u) != 0x7f800000u;
@@ -27,8 +30,8 @@ fn particle_status(
         let velocity = velocities[i];
         let finite = is_finite(position.x) && is_finite(position.y) && is_finite(position.z)
             && is_finite(velocity.x) && is_finite(velocity.y) && is_finite(velocity.z);
-        if finite {
-            let speed_squared = dot(velocity.xyz, velocity.xyz);
+        let speed_squared = dot(velocity.xyz, velocity.xyz);
+        if finite && speed_squared < RUNAWAY_SPEED * RUNAWAY_SPEED {
             atomicMax(&status.speed_max, bitcast<u32>(sqrt(speed_squared)));
             if position.w > 0.0 {
                 energy = 0.5 * (velocity.w * speed_squared);

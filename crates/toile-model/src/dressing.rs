@@ -73,7 +73,7 @@ pub enum DressingError {
     },
     /// The simulation diverged.
     #[error(
-        "the simulation diverged: {count} particles are not finite at step {step}, the first is particle {particle}"
+        "the simulation diverged: {count} particles are not finite or faster than 1 km/s at step {step}, the first is particle {particle}"
     )]
     Diverged {
         /// Step at which it was seen.

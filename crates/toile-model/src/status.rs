@@ -5,7 +5,7 @@
 pub struct Status {
     /// Steps done so far.
     pub step: u64,
-    /// Particles whose position or velocity is not finite.
+    /// Particles whose position or velocity is not finite, or that are faster than 1 km/s: a run that diverges is seen before it overflows.
     pub non_finite_count: u32,
     /// The first of them, by index.
     pub first_non_finite: Option<u32>,

@@ -14,7 +14,7 @@ pub enum Error {
     Model(#[from] toile_model::ModelError),
     /// The state is not finite.
     #[error(
-        "the simulation diverged: {count} particles are not finite at step {step}, the first is particle {particle}; use the default rule, softer springs or a smaller safety factor"
+        "the simulation diverged: {count} particles are not finite or faster than 1 km/s at step {step}, the first is particle {particle}; use the default rule, softer springs or a smaller safety factor"
     )]
     Diverged {
         /// Step at which it was seen.
