@@ -1,0 +1,50 @@
+//! What the reference makes of every fixture, as rounded digests that a reviewer can read.
+
+use std::fmt::Write as _;
+use toile_model::{Merge, Model, StepSettings};
+use toile_reference::maps::{Surface, render_maps};
+use toile_reference::{Colliders, Reference};
+use toile_scene::{Body, Cloth};
+use toile_workspace::{GARMENTS, SCENES, body, garment, scene, settings};
+
+#[test]
+fn digests_of_the_garments() {
+    let body = body();
+    let mut text = String::new();
+    for name in GARMENTS {
+        let settings = settings(0.06);
+        let open = Model::from_garment(&garment(name), &settings).expect("it meshes");
+        let step = StepSettings::new(&settings, &open);
+        let maps = render_maps(&[Surface { mesh: &body, thickness: step.thickness }], settings.texel as f32);
+        let mut reference = Reference::new(&open, &step.sewing(), Colliders { maps: Some(maps), sphere: None });
+        (0..5).for_each(|_| reference.frame());
+        writeln!(text, "{name}, sewn for 5 frames\n{}", reference.digest()).expect("a string grows");
+        let (sewn, merge) = open.sewn();
+        let mut reference = reference.sewn(&sewn, &step.easing(), &merge);
+        (0..5).for_each(|_| reference.frame());
+        let same = Merge::identity(sewn.particle_count());
+        let mut reference = reference.sewn(&sewn, &step.draping(), &same);
+        (0..5).for_each(|_| reference.frame());
+        writeln!(text, "{name}, then eased and draped for 5 each\n{}", reference.digest()).expect("a string grows");
+    }
+    insta::assert_snapshot!(text);
+}
+
+#[test]
+fn digests_of_the_scenes() {
+    let mut text = String::new();
+    for name in SCENES {
+        let scene = scene(name, &[("n", "17")]);
+        let Cloth::Sheet(sheet) = &scene.cloths[0] else { panic!("{name} has a sheet") };
+        let model = Model::from_sheet(sheet, &scene.settings);
+        let step = StepSettings::new(&scene.settings, &model);
+        let sphere = scene.bodies.iter().find_map(|body| match body {
+            Body::Sphere(sphere) => Some(*sphere),
+            Body::Mesh(_) => None,
+        });
+        let mut reference = Reference::new(&model, &step, Colliders { maps: None, sphere });
+        (0..20).for_each(|_| reference.frame());
+        writeln!(text, "{name}, 20 frames\n{}", reference.digest()).expect("a string grows");
+    }
+    insta::assert_snapshot!(text);
+}
