@@ -7,16 +7,22 @@ mod body;
 mod fabric;
 mod garment;
 mod mesh;
+mod moving;
 mod outline;
+mod rig;
 mod settings;
 mod sheet;
+mod skin;
 
 pub use body::{Body, Sphere, SphereMotion};
 pub use fabric::Fabric;
 pub use garment::{Curve, Edge, EdgeRef, Garment, Panel, Placement, Seam};
 pub use mesh::Mesh;
+pub use moving::{MeshSequence, Motion, MovingMesh};
+pub use rig::Rig;
 pub use settings::{Friction, Rule, Settings, VelocityModification};
 pub use sheet::{Pin, Sheet};
+pub use skin::{Displacement, Influence, Morphs, Pose, Skin};
 
 /// Everything a run needs: the cloth, what it collides with, and how it is simulated.
 #[derive(Clone, Debug)]
