@@ -3,12 +3,12 @@
 use std::fmt::Write;
 use toile_gpu::Plan;
 use toile_kernels::{Kernel, TABLE};
-use toile_model::{Model, Needs, StepSettings};
+use toile_model::{Maps, Model, Needs, StepSettings};
 use toile_scene::{Body, Cloth, Rule, Scene};
 use toile_workspace::{GARMENTS, SCENES, garment, scene, settings};
 
 fn plan(model: &Model, settings: &StepSettings, bodies: &[Body]) -> Plan {
-    let maps = bodies.iter().any(|body| matches!(body, Body::Mesh(_)));
+    let maps = if bodies.iter().any(|body| matches!(body, Body::Mesh(_))) { Maps::Still } else { Maps::None };
     let sphere = bodies.iter().any(|body| matches!(body, Body::Sphere(_)));
     Plan::new(model, &Needs::new(model, settings, maps, sphere), settings.sweeps)
 }

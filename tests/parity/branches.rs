@@ -4,7 +4,7 @@ use crate::input::Input;
 use glam::Vec3;
 use std::collections::BTreeMap;
 use toile_kernels::Kernel;
-use toile_model::NO_CORNER;
+use toile_model::{NO_CORNER, StepSettings};
 use toile_reference::{Contact, Probe};
 
 /// How many items went into each branch.
@@ -83,7 +83,25 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
             see("is a triangle", before.quads.iter().filter(|q| q[3] == NO_CORNER).count());
             see("is a quad", before.quads.iter().filter(|q| q[3] != NO_CORNER).count());
         }
-        Kernel::SampleMaps => maps(before, after, &mut see),
+        Kernel::SampleMaps | Kernel::SampleMovingMaps => maps(before, after, &mut see),
+        Kernel::MorphBody => {
+            let targets = |i: usize| before.morphs().offsets[i + 1] - before.morphs().offsets[i];
+            let vertices = || 0..before.skin.positions.len();
+            see("has no morph target", vertices().filter(|i| targets(*i) == 0).count());
+            see("has several morph targets", vertices().filter(|i| targets(*i) > 1).count());
+        }
+        Kernel::SkinBody => {
+            let joints = |i: usize| before.skin.influence_offsets[i + 1] - before.skin.influence_offsets[i];
+            let vertices = || 0..before.skin.positions.len();
+            see("hangs on no joint", vertices().filter(|i| joints(*i) == 0).count());
+            see("hangs on one joint", vertices().filter(|i| joints(*i) == 1).count());
+            see("hangs on several joints", vertices().filter(|i| joints(*i) > 1).count());
+        }
+        Kernel::VertexVelocities => {
+            let still = after.body.velocities.iter().filter(|velocity| **velocity == Vec3::ZERO).count();
+            see("stands still", still);
+            see("moves", after.body.velocities.len() - still);
+        }
         Kernel::SampleSphere => {
             let [points, _] = before.points();
             let kept =
@@ -205,6 +223,12 @@ fn maps(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize)
         counts[kind] += 1;
         counts[7] += usize::from(((next.x - frame.origin_x) / frame.texel).fract() == 0.0);
     }
+    let swept = StepSettings { swept: true, ..before.settings.clone() };
+    let unswept = StepSettings { swept: false, ..before.settings.clone() };
+    let [with, without] = [swept, unswept]
+        .map(|settings| toile_reference::step::sample_maps(&points, &velocities, maps, before.lag, &settings));
+    let differs = with.iter().zip(&without).filter(|(a, b)| a != b && a.distance.is_finite()).count();
+    see("is answered where it enters", differs);
     let names = [
         "is no number",
         "is left or right of the maps",

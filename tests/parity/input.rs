@@ -6,8 +6,8 @@ use std::ops::Range;
 use toile_gpu::BodyMaps;
 use toile_kernels::structs;
 use toile_model::{Csr, Hold, Limit, Link, SeamPair, StepSettings};
-use toile_reference::{Ball, Contact, Midpoints, Particles, Probe};
-use toile_scene::Friction;
+use toile_reference::{Ball, Contact, Lag, Midpoints, Particles, Probe};
+use toile_scene::{Friction, Pose, Skin};
 use toile_workspace::{Inputs, Layers};
 
 /// Everything a kernel may read or write.
@@ -41,7 +41,24 @@ pub struct Input {
     pub ball: Ball,
     /// Whether the sphere is sampled after the maps.
     pub after_maps: bool,
+    pub lag: Lag,
     pub layers: Layers,
+    /// A body that moves: its skin, its pose, and what its kernels write.
+    pub skin: Skin,
+    pub pose: Pose,
+    pub body: Posed,
+    pub rate: f32,
+}
+
+/// What the kernels of a body write, shape [vertex_count] each.
+#[derive(Clone, Default)]
+pub struct Posed {
+    pub morphed_positions: Vec<Vec3>,
+    pub morphed_normals: Vec<Vec3>,
+    pub last_positions: Vec<Vec3>,
+    pub positions: Vec<Vec3>,
+    pub normals: Vec<Vec3>,
+    pub velocities: Vec<Vec3>,
 }
 
 impl Input {
@@ -68,6 +85,11 @@ impl Input {
         ]
     }
 
+    /// The morph targets of the body.
+    pub fn morphs(&self) -> &toile_scene::Morphs {
+        self.skin.morphs.as_ref().expect("the seeded body has morph targets")
+    }
+
     fn step_params(&self) -> structs::StepParams {
         let s = &self.settings;
         let (friction_law, velocity_kept, force_removed) = match s.law {
@@ -89,6 +111,7 @@ impl Input {
             hold_speed: s.hold_speed,
             particle_count: self.particles.positions.len() as u32,
             quad_count: self.quads.len() as u32,
+            swept: u32::from(s.swept),
         }
     }
 }
@@ -103,7 +126,30 @@ impl Inputs for Input {
                 radius: self.ball.radius,
                 velocity: self.ball.velocity,
                 after_maps: u32::from(self.after_maps),
+                spin: self.ball.spin,
             }),
+            "lag" => uniform(&structs::Lag { start: self.lag.start, end: self.lag.end }),
+            "vertices" => uniform(&structs::Vertices { count: self.skin.positions.len() as u32, rate: self.rate }),
+            "bind_positions" => padded(&self.skin.positions, 1.0),
+            "bind_normals" => padded(&self.skin.normals, 0.0),
+            "morph_offsets" => words(&self.morphs().offsets),
+            "displacements" => array(self.morphs().displacements.iter().map(|d| structs::Displacement {
+                position: d.position,
+                morph: d.target,
+                normal: d.normal,
+            })),
+            "morph_weights" => bytemuck::cast_slice(&self.pose.morph_weights).to_vec(),
+            "morphed_positions" => padded(&self.body.morphed_positions, 1.0),
+            "morphed_normals" => padded(&self.body.morphed_normals, 0.0),
+            "influence_offsets" => words(&self.skin.influence_offsets),
+            "influences" => array(
+                self.skin.influences.iter().map(|i| structs::Influence { joint: i.joint, weight: i.weight }),
+            ),
+            "joints" => bytemuck::cast_slice(&self.pose.joints).to_vec(),
+            "body_positions" | "surface_positions" => padded(&self.body.positions, 1.0),
+            "body_normals" => padded(&self.body.normals, 0.0),
+            "last_positions" => padded(&self.body.last_positions, 1.0),
+            "surface_velocities" => padded(&self.body.velocities, 0.0),
             "map_frame" => {
                 let frame = self.layers.read.frame;
                 uniform(&structs::MapFrame {
@@ -188,6 +234,10 @@ fn flag(on: bool) -> f32 {
 fn with_w(xyz: &[Vec3], w: &[f32]) -> Vec<u8> {
     let packed: Vec<Vec4> = xyz.iter().zip(w).map(|(xyz, w)| xyz.extend(*w)).collect();
     bytemuck::cast_slice(&packed).to_vec()
+}
+
+fn padded(xyz: &[Vec3], w: f32) -> Vec<u8> {
+    with_w(xyz, &vec![w; xyz.len()])
 }
 
 fn words(values: &[u32]) -> Vec<u8> {

@@ -4,7 +4,7 @@ use crate::branches;
 use crate::input::Input;
 use crate::seeded::{VARIANTS, input};
 use toile_kernels::{Kernel, TABLE};
-use toile_reference::{Probe, frame, step};
+use toile_reference::{Lag, Probe, frame, maps, step};
 use toile_workspace::{Compiled, Inputs, first_difference, gpu};
 
 /// One item, and around the border of a workgroup, and more than a few of them.
@@ -34,7 +34,33 @@ pub fn reference(kernel: Kernel, input: &mut Input) {
         }
         Kernel::SampleMaps => {
             let [positions, velocities] = before.points();
-            input.probes = step::sample_maps(&positions, &velocities, &before.layers.read, settings);
+            input.probes =
+                step::sample_maps(&positions, &velocities, &before.layers.read, Lag::default(), settings);
+        }
+        Kernel::SampleMovingMaps => {
+            let [positions, velocities] = before.points();
+            input.probes = step::sample_maps(&positions, &velocities, &before.layers.read, before.lag, settings);
+        }
+        Kernel::MorphBody => {
+            let body = &mut input.body;
+            body.morphed_positions = before.skin.positions.clone();
+            body.morphed_normals = before.skin.normals.clone();
+            maps::morph_body(
+                &mut body.morphed_positions,
+                &mut body.morphed_normals,
+                before.morphs(),
+                &before.pose.morph_weights,
+            );
+        }
+        Kernel::SkinBody => {
+            let [positions, normals] = [&before.body.morphed_positions, &before.body.morphed_normals];
+            let [positions, normals] = maps::skin_body(positions, normals, &before.skin, &before.pose.joints);
+            input.body.positions = positions;
+            input.body.normals = normals;
+        }
+        Kernel::VertexVelocities => {
+            input.body.velocities =
+                maps::vertex_velocities(&before.body.last_positions, &before.body.positions, before.rate);
         }
         Kernel::SampleSphere => {
             let [positions, velocities] = before.points();

@@ -1,12 +1,13 @@
 //! Seeded input of any size that leads into every branch of a kernel.
 
-use crate::input::Input;
-use glam::{Vec3, vec3};
+use crate::input::{Input, Posed};
+use glam::{Vec3, Vec4, vec3};
 use std::sync::OnceLock;
 use toile_kernels::{Domain, Kernel, TABLE};
-use toile_model::{Csr, Hold, Limit, Link, Model, NO_CORNER, SeamPair, StepSettings};
-use toile_reference::{Ball, Contact, Midpoints, Particles, Probe};
-use toile_scene::Friction;
+use toile_gpu::Surface;
+use toile_model::{Csr, Hold, Limit, Link, MapFrame, Model, NO_CORNER, SeamPair, StepSettings};
+use toile_reference::{Ball, Contact, Lag, Midpoints, Particles, Probe};
+use toile_scene::{Displacement, Friction, Influence, Morphs, Pose, Skin};
 use toile_workspace::{Layers, Random, box_mesh, gpu, settings, uv_sphere};
 
 /// What the numbers of a step are: together these lead into every branch that the settings decide.
@@ -48,12 +49,20 @@ pub fn input(kernel: Kernel, items: u32, variant: Variant) -> Input {
     };
     let (open, members) = open_particles(random, counts.particles);
     let (holds, held_particles) = holds(random, &particles, counts.holds);
+    let (skin, pose, body) = body(random, if domain == Domain::Vertex { items } else { 1 });
     let mut input = Input {
         // A hold takes a whole workgroup.
         invocations: if domain == Domain::Hold { 64 * items } else { items },
-        ball: Ball { centre: vec3(0.1, 0.0, -0.05), radius: 0.35, velocity: vec3(0.5, 0.0, 0.2) },
+        ball: Ball {
+            centre: vec3(0.1, 0.0, -0.05),
+            radius: 0.35,
+            velocity: vec3(0.5, 0.0, 0.2),
+            spin: vec3(0.3, -1.0, 2.0),
+        },
         after_maps: variant != Variant::Weightless,
-        layers: layers().clone(),
+        lag: Lag::of(3, 8, settings.dt),
+        layers: if kernel == Kernel::SampleMovingMaps { moving_layers().clone() } else { layers().clone() },
+        rate: if variant == Variant::Weightless { 0.0 } else { 120.0 },
         open,
         members,
         copies: particles.clone(),
@@ -77,6 +86,9 @@ pub fn input(kernel: Kernel, items: u32, variant: Variant) -> Input {
         status: Default::default(),
         settings,
         particles,
+        skin,
+        pose,
+        body,
     };
     input.copies.positions.fill(Vec3::ZERO);
     input.copies.velocities.fill(Vec3::ZERO);
@@ -98,6 +110,7 @@ fn counts(domain: Domain, items: u32) -> Counts {
             Counts { particles: 2 * items + 4, pairs: items, others: 2, ..none }
         }
         Domain::Workgroup => Counts { partials: items, ..none },
+        Domain::Vertex => Counts { particles: 1, ..none },
     }
 }
 
@@ -111,6 +124,7 @@ fn step_settings(variant: Variant) -> StepSettings {
         friction: 0.8,
         hold_rate: 10.0,
         hold_speed: 0.5,
+        swept: true,
         ..base
     };
     match variant {
@@ -121,7 +135,7 @@ fn step_settings(variant: Variant) -> StepSettings {
             gravity: vec3(0.3, -9.81, 0.1),
             ..base
         },
-        Variant::Weightless => StepSettings { gravity: Vec3::ZERO, law: Friction::Coulomb, reflection: 0.1, ..base },
+        Variant::Weightless => StepSettings { gravity: Vec3::ZERO, law: Friction::Coulomb, reflection: 0.1, swept: false, ..base },
     }
 }
 
@@ -275,6 +289,67 @@ fn layers() -> &'static Layers {
     })
 }
 
+/// The same bodies, on their way.
+fn moving_layers() -> &'static Layers {
+    static LAYERS: OnceLock<Layers> = OnceLock::new();
+    LAYERS.get_or_init(|| {
+        let random = &mut Random::new(7);
+        let surfaces = [
+            uv_sphere(vec3(-0.05, 0.0, 0.0), 0.4, 16),
+            box_mesh(vec3(0.0, -0.45, -0.55), vec3(0.25, 0.1, -0.1)),
+        ]
+        .map(|mesh| {
+            let velocities: Vec<Vec4> = mesh.positions.iter().map(|_| random.vector(2.0).extend(0.0)).collect();
+            let buffer = gpu().upload(bytemuck::cast_slice(&velocities), wgpu::BufferUsages::VERTEX);
+            Surface { velocities: Some(buffer), ..Surface::new(&gpu().device, &mesh) }
+        });
+        let frame = MapFrame::around([vec3(-0.47, -0.47, -0.57), vec3(0.37, 0.42, 0.42)], 0.031);
+        Layers::draw_surfaces(gpu(), &[(&surfaces[0], 0.005), (&surfaces[1], 0.01)], frame)
+    })
+}
+
+/// A body whose vertices hang on none to a few joints and are displaced by none to a few morph targets.
+fn body(random: &mut Random, vertices: u32) -> (Skin, Pose, Posed) {
+    const JOINTS: u32 = 7;
+    const TARGETS: u32 = 3;
+    let vectors = |random: &mut Random, largest: f32| -> Vec<Vec3> { (0..vertices).map(|_| random.vector(largest)).collect() };
+    let mut skin = Skin {
+        positions: vectors(random, 1.0),
+        normals: (0..vertices).map(|_| random.direction()).collect(),
+        influence_offsets: vec![0],
+        ..Skin::default()
+    };
+    let mut morphs = Morphs { offsets: vec![0], ..Morphs::default() };
+    for vertex in 0..vertices {
+        // A vertex on no joint has no matrix, and so a normal without length.
+        let joints = if vertex % 40 == 9 { 0 } else { 1 + random.below(5) };
+        skin.influences.extend(
+            (0..joints).map(|_| Influence { joint: random.below(JOINTS), weight: random.between(0.0, 1.0) }),
+        );
+        skin.influence_offsets.push(skin.influences.len() as u32);
+        let targets = random.below(TARGETS);
+        morphs.displacements.extend((0..targets).map(|target| Displacement {
+            target,
+            position: random.vector(0.1),
+            normal: random.vector(0.2),
+        }));
+        morphs.offsets.push(morphs.displacements.len() as u32);
+    }
+    skin.morphs = Some(morphs);
+    let mut row = || random.vector(1.0).extend(0.3);
+    let joints = (0..JOINTS).map(|_| [row(), row(), row()]).collect();
+    let pose = Pose { joints, morph_weights: (0..TARGETS).map(|_| random.between(-0.5, 1.0)).collect() };
+    let body = Posed {
+        morphed_positions: vectors(random, 1.0),
+        morphed_normals: (0..vertices).map(|_| random.direction()).collect(),
+        last_positions: vectors(random, 1.0),
+        positions: vectors(random, 1.0),
+        normals: vec![Vec3::ZERO; vertices as usize],
+        velocities: vec![Vec3::ZERO; vertices as usize],
+    };
+    (skin, pose, body)
+}
+
 /// Moves some points to the borders of the maps, the centre and the surface of the sphere, and to where there is no number.
 fn place_at_the_edges(random: &mut Random, input: &mut Input) {
     let frame = input.layers.read.frame;
@@ -293,6 +368,8 @@ fn place_at_the_edges(random: &mut Random, input: &mut Input) {
                 position.y = frame.origin_y - frame.texel * random.below(frame.rows + 1) as f32;
             }
             13 => *position = input.ball.centre,
+            // Through the bodies within one step.
+            20 | 21 => *velocity = (vec3(0.0, 0.1, 0.0) - *position) * (random.between(0.3, 2.0) / input.settings.dt),
             // Just at the sphere.
             17 => {
                 *position = input.ball.centre + random.direction() * (input.ball.radius + random.between(-0.01, 0.01))

@@ -45,6 +45,12 @@ impl Gpu {
         self.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device answers");
     }
 
+    /// A buffer with these contents.
+    pub fn upload(&self, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+        use wgpu::util::DeviceExt;
+        self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: None, contents, usage })
+    }
+
     /// Reads a buffer back as 32-bit words.
     pub fn words(&self, buffer: &wgpu::Buffer) -> Vec<u32> {
         let bytes = toile_gpu::readback::read_buffer(&self.device, &self.queue, buffer).expect("the device answers");

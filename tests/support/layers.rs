@@ -31,17 +31,34 @@ impl Layers {
 
     /// Draws bodies into maps of a given frame.
     pub fn draw_in(gpu: &Gpu, bodies: &[(&Mesh, f32)], frame: MapFrame) -> Self {
-        let maps = BodyMaps::new(&gpu.device, frame).unwrap_or_else(|error| panic!("{error}"));
         let surfaces: Vec<_> =
             bodies.iter().map(|(mesh, thickness)| (Surface::new(&gpu.device, mesh), *thickness)).collect();
         let drawn: Vec<_> = surfaces.iter().map(|(surface, thickness)| (surface, *thickness)).collect();
-        gpu.run(|encoder| maps.record(&gpu.device, encoder, &drawn));
-        let read = toile_reference::maps::BodyMaps {
-            frame,
-            depth: readback::read_depth(&gpu.device, &gpu.queue, &maps).expect("the device answers"),
-            normals: readback::read_normals(&gpu.device, &gpu.queue, &maps).expect("the device answers"),
-            velocities: None,
-        };
+        Self::draw_surfaces(gpu, &drawn, frame)
+    }
+
+    /// Draws surfaces of the device; maps of moving bodies when they have velocities.
+    pub fn draw_surfaces(gpu: &Gpu, surfaces: &[(&Surface, f32)], frame: MapFrame) -> Self {
+        let moving = surfaces.iter().any(|(surface, _)| surface.velocities.is_some());
+        let maps = BodyMaps::new(&gpu.device, frame, moving).unwrap_or_else(|error| panic!("{error}"));
+        gpu.run(|encoder| maps.record(&gpu.device, encoder, frame, surfaces));
+        let read = read(gpu, &maps, frame);
         Self { maps: Arc::new(maps), read }
+    }
+
+    /// The same maps with other bodies in them.
+    pub fn redraw(&mut self, gpu: &Gpu, surfaces: &[(&Surface, f32)], frame: MapFrame) {
+        gpu.run(|encoder| self.maps.record(&gpu.device, encoder, frame, surfaces));
+        self.read = read(gpu, &self.maps, frame);
+    }
+}
+
+/// The texels of maps that show the bodies in `frame`.
+fn read(gpu: &Gpu, maps: &BodyMaps, frame: MapFrame) -> toile_reference::maps::BodyMaps {
+    toile_reference::maps::BodyMaps {
+        frame,
+        depth: readback::read_depth(&gpu.device, &gpu.queue, maps).expect("the device answers"),
+        normals: readback::read_normals(&gpu.device, &gpu.queue, maps).expect("the device answers"),
+        velocities: readback::read_velocities(&gpu.device, &gpu.queue, maps).expect("the device answers"),
     }
 }

@@ -1,4 +1,5 @@
-// Draws the surfaces of the bodies into the depth and normal maps, seen by the front or the back camera. W §4.1-4.2.
+// Draws the surfaces of the bodies into the depth and normal maps, and those of moving bodies into the velocity map too, seen by
+// the front or the back camera. W §4.1-4.3.
 #import shared/map_frame
 
 const FRONT: u32 = 0u;
@@ -13,11 +14,21 @@ struct Texel {
     @location(0) normal: vec3<f32>,
 }
 
+struct MovingTexel {
+    @builtin(position) position: vec4<f32>,
+    @location(0) normal: vec3<f32>,
+    @location(1) velocity: vec3<f32>,
+}
+
+struct Colours {
+    @location(0) normal: vec4<f32>,
+    @location(1) velocity: vec4<f32>,
+}
+
 @group(0) @binding(0) var<uniform> map_frame: MapFrame;
 @group(0) @binding(1) var<uniform> camera: Side;
 
-@vertex
-fn draw_surface(@location(0) position: vec3<f32>, @location(1) normal: vec3<f32>) -> Texel {
+fn project(position: vec3<f32>, normal: vec3<f32>) -> vec4<f32> {
     let surface = position + normal * camera.thickness;
     let x = 2.0 * ((surface.x - map_frame.origin_x) / (f32(map_frame.columns) * map_frame.texel)) - 1.0;
     let y = 1.0 - 2.0 * ((map_frame.origin_y - surface.y) / (f32(map_frame.rows) * map_frame.texel));
@@ -25,13 +36,36 @@ fn draw_surface(@location(0) position: vec3<f32>, @location(1) normal: vec3<f32>
     if camera.side != FRONT {
         depth = 1.0 - depth;
     }
-    return Texel(vec4<f32>(x, y, depth, 1.0), normal);
+    return vec4<f32>(x, y, depth, 1.0);
+}
+
+// An interpolated normal may lean away from the camera at the silhouette; the surface that the camera sees does not.
+fn facing(interpolated: vec3<f32>) -> vec4<f32> {
+    var normal = interpolated;
+    normal.z = select(-abs(normal.z), abs(normal.z), camera.side == FRONT);
+    return vec4<f32>(normal / length(normal), 0.0);
+}
+
+@vertex
+fn draw_surface(@location(0) position: vec3<f32>, @location(1) normal: vec3<f32>) -> Texel {
+    return Texel(project(position, normal), normal);
 }
 
 @fragment
 fn write_normal(texel: Texel) -> @location(0) vec4<f32> {
-    // An interpolated normal may lean away from the camera at the silhouette; the surface that the camera sees does not.
-    var normal = texel.normal;
-    normal.z = select(-abs(normal.z), abs(normal.z), camera.side == FRONT);
-    return vec4<f32>(normal / length(normal), 0.0);
+    return facing(texel.normal);
+}
+
+@vertex
+fn draw_moving_surface(
+    @location(0) position: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+    @location(2) velocity: vec3<f32>,
+) -> MovingTexel {
+    return MovingTexel(project(position, normal), normal, velocity);
+}
+
+@fragment
+fn write_normal_and_velocity(texel: MovingTexel) -> Colours {
+    return Colours(facing(texel.normal), vec4<f32>(texel.velocity, 0.0));
 }

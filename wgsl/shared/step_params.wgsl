@@ -14,6 +14,7 @@ struct StepParams {
     hold_speed: f32,            // its largest speed [m/s]
     particle_count: u32,
     quad_count: u32,
+    swept: u32,                 // 1: the whole way of a point is tested against the bodies
 }
 
 const COULOMB: u32 = 0u;

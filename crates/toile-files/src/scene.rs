@@ -139,6 +139,7 @@ fn settings(toml: &SceneToml, folder: &Path) -> Result<Settings, Problem> {
         texel: positive("texel", toml.texel.unwrap_or(default.texel))?,
         frame_rate: positive("frame_rate", toml.frame_rate.unwrap_or(default.frame_rate))?,
         safety: part("safety", positive("safety", safety)?)?,
+        swept: toml.swept.unwrap_or(default.swept),
         fabric: default.fabric,
     })
 }

@@ -14,6 +14,7 @@ pub(crate) struct SceneToml {
     pub spacing: Option<f64>,
     pub texel: Option<f64>,
     pub safety: Option<f64>,
+    pub swept: Option<bool>,
     pub reflection: Option<f64>,
     pub rule: Option<RuleToml>,
     pub sweeps: Option<u32>,

@@ -129,7 +129,7 @@ fn contents(name: &str, model: &Model, settings: &StepSettings) -> Contents {
     match name {
         "step" => uniform(&step_params(model, settings)),
         "span" => Contents::Bytes(spans(model)),
-        "ball" => Contents::Zeros(u64::from(settings.steps_per_frame) * MOVING_UNIFORM_STRIDE),
+        "ball" | "lag" => Contents::Zeros(u64::from(settings.steps_per_frame) * MOVING_UNIFORM_STRIDE),
         "positions" => {
             Contents::Bytes(vec4s(model.positions.iter().zip(&model.inverse_masses).map(|(p, w)| p.extend(*w))))
         }
@@ -200,6 +200,7 @@ fn step_params(model: &Model, settings: &StepSettings) -> structs::StepParams {
         hold_speed: settings.hold_speed,
         particle_count: model.particle_count(),
         quad_count: model.quad_count(),
+        swept: u32::from(settings.swept),
     }
 }
 

@@ -6,17 +6,21 @@
 mod buffers;
 mod error;
 mod maps;
+mod moving_body;
 mod plan;
 mod program;
 pub mod readback;
 mod solver;
 mod status;
 mod timing;
+mod trail;
 
 pub use error::GpuError;
 pub use maps::{BodyMaps, Surface};
+pub use moving_body::MovingBody;
 pub use plan::{Pass, Plan};
 pub use program::Program;
 pub use solver::{Colliders, Solver};
 pub use timing::{PassTime, Timer};
 pub use toile_kernels::Kernel;
+pub use trail::Trail;

@@ -1,4 +1,4 @@
-//! The depth and normal maps of the bodies: rendered on the GPU, never leaving it in a run. W §4.
+//! The depth, normal and velocity maps of the bodies: rendered on the GPU, never leaving it in a run. W §4.
 
 use crate::GpuError;
 use crate::buffers::uniform_bytes;
@@ -8,7 +8,7 @@ use toile_scene::Mesh;
 use wgpu::util::DeviceExt;
 
 const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-const NORMAL_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
+const COLOUR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
 /// A triangle mesh on the device, as the maps draw it: a body, or a garment that lies under another one.
 #[derive(Clone, Debug)]
@@ -17,6 +17,8 @@ pub struct Surface {
     pub positions: wgpu::Buffer,
     /// Unit normals, vec4 each, xyz used; usage `VERTEX`.
     pub normals: wgpu::Buffer,
+    /// Velocities [m/s], vec4 each, xyz used; usage `VERTEX`. Maps of moving bodies need them of every surface.
+    pub velocities: Option<wgpu::Buffer>,
     /// Vertex indices (u32), three per triangle; usage `INDEX`.
     pub indices: wgpu::Buffer,
     /// Number of indices.
@@ -24,122 +26,208 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// Uploads a mesh.
+    /// Uploads a mesh at rest.
     pub fn new(device: &wgpu::Device, mesh: &Mesh) -> Self {
         let vertices = |label, values: &[glam::Vec3]| {
-            let padded: Vec<_> = values.iter().map(|v| v.extend(0.0)).collect();
-            create(device, label, bytemuck::cast_slice(&padded), wgpu::BufferUsages::VERTEX)
+            create(device, label, bytemuck::cast_slice(&padded(values)), wgpu::BufferUsages::VERTEX)
         };
         Self {
             positions: vertices("surface positions", &mesh.positions),
             normals: vertices("surface normals", &mesh.normals),
-            indices: create(
-                device,
-                "surface indices",
-                bytemuck::cast_slice(&mesh.triangles),
-                wgpu::BufferUsages::INDEX,
-            ),
+            velocities: None,
+            indices: Self::indices(device, mesh),
             index_count: 3 * mesh.triangles.len() as u32,
         }
     }
+
+    /// The same mesh as one of maps of moving bodies sees it: with velocities, which are zero.
+    pub fn at_rest(device: &wgpu::Device, mesh: &Mesh) -> Self {
+        let zeros = vec![0; 16 * mesh.positions.len()];
+        let velocities = create(device, "surface velocities", &zeros, wgpu::BufferUsages::VERTEX);
+        Self { velocities: Some(velocities), ..Self::new(device, mesh) }
+    }
+
+    pub(crate) fn indices(device: &wgpu::Device, mesh: &Mesh) -> wgpu::Buffer {
+        create(device, "surface indices", bytemuck::cast_slice(&mesh.triangles), wgpu::BufferUsages::INDEX)
+    }
+}
+
+/// Vectors as the device holds them: four words each.
+pub(crate) fn padded(values: &[glam::Vec3]) -> Vec<glam::Vec4> {
+    values.iter().map(|v| v.extend(0.0)).collect()
 }
 
 fn create(device: &wgpu::Device, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
     device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
 }
 
-/// The depth and normal maps of everything that a cloth collides with, front and back.
+/// The maps of everything that a cloth collides with, front and back: depth and normals, and of moving bodies velocities.
 ///
 /// Layer 0 is seen from +z, layer 1 from −z; both have the same columns (x) and rows (−y). A texel that sees nothing has depth 1.
 #[derive(Debug)]
 pub struct BodyMaps {
-    frame: MapFrame,
-    depth: wgpu::Texture,
-    normals: wgpu::Texture,
-    depth_view: wgpu::TextureView,
-    normal_view: wgpu::TextureView,
+    size: wgpu::Extent3d,
+    depth: Map,
+    normals: Map,
+    velocities: Option<Map>,
     frame_uniform: wgpu::Buffer,
     pipeline: wgpu::RenderPipeline,
     layout: wgpu::BindGroupLayout,
 }
 
+/// A texture of two layers.
+#[derive(Debug)]
+struct Map {
+    texture: wgpu::Texture,
+    layers: wgpu::TextureView,
+    sides: [wgpu::TextureView; 2],
+}
+
+impl Map {
+    fn new(device: &wgpu::Device, label: &str, format: wgpu::TextureFormat, size: wgpu::Extent3d) -> Self {
+        let texture = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some(label),
+            size,
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT
+                | wgpu::TextureUsages::TEXTURE_BINDING
+                | wgpu::TextureUsages::COPY_DST
+                | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        });
+        let layers = texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2Array),
+            ..Default::default()
+        });
+        let sides = [0, 1].map(|side| {
+            texture.create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2),
+                base_array_layer: side,
+                array_layer_count: Some(1),
+                ..Default::default()
+            })
+        });
+        Self { texture, layers, sides }
+    }
+
+    fn colour(&self, side: usize, load: wgpu::LoadOp<wgpu::Color>) -> Option<wgpu::RenderPassColorAttachment<'_>> {
+        Some(wgpu::RenderPassColorAttachment {
+            view: &self.sides[side],
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
+        })
+    }
+}
+
 impl BodyMaps {
-    /// Empty maps over a frame.
+    /// Empty maps as large as a frame, of bodies at rest or of moving ones.
     ///
     /// # Errors
     /// [`GpuError::MapTooLarge`] when the frame has more texels on a side than the device's textures.
-    pub fn new(device: &wgpu::Device, frame: MapFrame) -> Result<Self, GpuError> {
+    pub fn new(device: &wgpu::Device, frame: MapFrame, moving: bool) -> Result<Self, GpuError> {
         let available = device.limits().max_texture_dimension_2d;
         if frame.columns.max(frame.rows) > available {
             return Err(GpuError::MapTooLarge { columns: frame.columns, rows: frame.rows, available });
         }
-        let texture = |label, format| {
-            device.create_texture(&wgpu::TextureDescriptor {
-                label: Some(label),
-                size: wgpu::Extent3d { width: frame.columns, height: frame.rows, depth_or_array_layers: 2 },
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format,
-                usage: wgpu::TextureUsages::RENDER_ATTACHMENT
-                    | wgpu::TextureUsages::TEXTURE_BINDING
-                    | wgpu::TextureUsages::COPY_SRC,
-                view_formats: &[],
-            })
-        };
-        let depth = texture("depth map", DEPTH_FORMAT);
-        let normals = texture("normal map", NORMAL_FORMAT);
-        let all_layers =
-            wgpu::TextureViewDescriptor { dimension: Some(wgpu::TextureViewDimension::D2Array), ..Default::default() };
-        let uniform = structs::MapFrame {
-            origin_x: frame.origin_x,
-            origin_y: frame.origin_y,
-            texel: frame.texel,
-            z_front: frame.z_front,
-            z_back: frame.z_back,
-            columns: frame.columns,
-            rows: frame.rows,
-        };
-        let (layout, pipeline) = create_pipeline(device);
+        let size = wgpu::Extent3d { width: frame.columns, height: frame.rows, depth_or_array_layers: 2 };
+        let (layout, pipeline) = create_pipeline(device, moving);
+        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         Ok(Self {
-            frame,
-            depth_view: depth.create_view(&all_layers),
-            normal_view: normals.create_view(&all_layers),
-            depth,
-            normals,
-            frame_uniform: create(device, "map_frame", &uniform_bytes(&uniform), wgpu::BufferUsages::UNIFORM),
+            size,
+            depth: Map::new(device, "depth map", DEPTH_FORMAT, size),
+            normals: Map::new(device, "normal map", COLOUR_FORMAT, size),
+            velocities: moving.then(|| Map::new(device, "velocity map", COLOUR_FORMAT, size)),
+            frame_uniform: create(device, "map_frame", &frame_bytes(&frame), usage),
             pipeline,
             layout,
         })
     }
 
-    /// Records the drawing of all surfaces, each offset along its normals by the thickness beside it [m].
-    pub fn record(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, surfaces: &[(&Surface, f32)]) {
+    /// Records the drawing of all surfaces into a frame, each offset along its normals by the thickness beside it [m].
+    ///
+    /// # Panics
+    /// When the frame has another size than these maps, or a surface in maps of moving bodies has no velocities.
+    pub fn record(
+        &self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: MapFrame,
+        surfaces: &[(&Surface, f32)],
+    ) {
+        self.place(device, encoder, frame);
+        self.draw(device, encoder, surfaces, true);
+    }
+
+    /// Records the drawing of more surfaces over what the maps show already.
+    ///
+    /// # Panics
+    /// When a surface in maps of moving bodies has no velocities.
+    pub fn record_over(
+        &self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        surfaces: &[(&Surface, f32)],
+    ) {
+        self.draw(device, encoder, surfaces, false);
+    }
+
+    /// Records a copy of maps of the same size, which show the bodies in `frame`.
+    ///
+    /// # Panics
+    /// When the other maps have another size, or only one of both shows velocities.
+    pub fn record_copy(
+        &self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        other: &BodyMaps,
+        frame: MapFrame,
+    ) {
+        assert_eq!(self.size, other.size, "maps are copied into maps of the same size");
+        assert_eq!(self.is_moving(), other.is_moving(), "maps with and without velocities");
+        self.place(device, encoder, frame);
+        let mut copy = |from: &Map, to: &Map| {
+            encoder.copy_texture_to_texture(from.texture.as_image_copy(), to.texture.as_image_copy(), self.size);
+        };
+        copy(&other.depth, &self.depth);
+        copy(&other.normals, &self.normals);
+        if let (Some(from), Some(to)) = (&other.velocities, &self.velocities) {
+            copy(from, to);
+        }
+    }
+
+    fn place(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, frame: MapFrame) {
+        let size = [self.size.width, self.size.height];
+        assert_eq!([frame.columns, frame.rows], size, "the frame has the size of the maps");
+        // A buffer of its own, not a queue write: the caller may record several frames before submitting any.
+        let upload = create(device, "map_frame upload", &frame_bytes(&frame), wgpu::BufferUsages::COPY_SRC);
+        encoder.copy_buffer_to_buffer(&upload, 0, &self.frame_uniform, 0, upload.size());
+    }
+
+    fn draw(
+        &self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        surfaces: &[(&Surface, f32)],
+        anew: bool,
+    ) {
+        let colour_load = if anew { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { wgpu::LoadOp::Load };
+        let depth_load = if anew { wgpu::LoadOp::Clear(1.0) } else { wgpu::LoadOp::Load };
         for side in 0..2 {
-            let groups: Vec<_> = surfaces.iter().map(|(_, thickness)| self.camera(device, side, *thickness)).collect();
-            let layer = |texture: &wgpu::Texture| {
-                texture.create_view(&wgpu::TextureViewDescriptor {
-                    dimension: Some(wgpu::TextureViewDimension::D2),
-                    base_array_layer: side,
-                    array_layer_count: Some(1),
-                    ..Default::default()
-                })
-            };
-            let (depth, normals) = (layer(&self.depth), layer(&self.normals));
+            let groups: Vec<_> =
+                surfaces.iter().map(|(_, thickness)| self.camera(device, side as u32, *thickness)).collect();
+            let normals = self.normals.colour(side, colour_load);
+            let velocities = self.velocities.as_ref().and_then(|map| map.colour(side, colour_load));
+            let colours: Vec<_> = [normals, velocities].into_iter().filter(Option::is_some).collect();
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some("render_maps"),
-                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                    view: &normals,
-                    depth_slice: None,
-                    resolve_target: None,
-                    ops: wgpu::Operations {
-                        load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                        store: wgpu::StoreOp::Store,
-                    },
-                })],
+                color_attachments: &colours,
                 depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                    view: &depth,
-                    depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Store }),
+                    view: &self.depth.sides[side],
+                    depth_ops: Some(wgpu::Operations { load: depth_load, store: wgpu::StoreOp::Store }),
                     stencil_ops: None,
                 }),
                 ..Default::default()
@@ -149,44 +237,55 @@ impl BodyMaps {
                 pass.set_bind_group(0, group, &[]);
                 pass.set_vertex_buffer(0, surface.positions.slice(..));
                 pass.set_vertex_buffer(1, surface.normals.slice(..));
+                if self.is_moving() {
+                    let velocities = surface.velocities.as_ref().expect("maps of moving bodies need velocities");
+                    pass.set_vertex_buffer(2, velocities.slice(..));
+                }
                 pass.set_index_buffer(surface.indices.slice(..), wgpu::IndexFormat::Uint32);
                 pass.draw_indexed(0..surface.index_count, 0, 0..1);
             }
         }
     }
 
-    /// Where the maps stand.
-    pub fn frame(&self) -> MapFrame {
-        self.frame
+    /// Whether the maps show velocities.
+    pub fn is_moving(&self) -> bool {
+        self.velocities.is_some()
     }
 
     /// The depth map, `Depth32Float`, two layers; 0 at the camera's plane, 1 at the other camera's plane or where nothing is seen.
     pub fn depth(&self) -> &wgpu::Texture {
-        &self.depth
+        &self.depth.texture
     }
 
     /// The normal map, `Rgba32Float`, two layers; xyz is the unit normal facing the camera.
     pub fn normals(&self) -> &wgpu::Texture {
-        &self.normals
+        &self.normals.texture
+    }
+
+    /// The velocity map, `Rgba32Float`, two layers; xyz is the velocity [m/s]. `None` for bodies at rest.
+    pub fn velocities(&self) -> Option<&wgpu::Texture> {
+        self.velocities.as_ref().map(|map| &map.texture)
     }
 
     /// Bytes of the textures and of what the kernels know of their frame.
     pub fn bytes(&self) -> u64 {
-        Self::bytes_over(&self.frame)
+        bytes_of(self.size.width, self.size.height, self.is_moving())
     }
 
     /// Bytes that maps over a frame have. It needs no device.
-    pub fn bytes_over(frame: &MapFrame) -> u64 {
-        let texels = 2 * u64::from(frame.columns) * u64::from(frame.rows);
-        texels * (4 + 16) + <structs::MapFrame as encase::ShaderType>::min_size().get()
+    pub fn bytes_over(frame: &MapFrame, moving: bool) -> u64 {
+        bytes_of(frame.columns, frame.rows, moving)
     }
 
     /// The resource that the kernels know by this name, if it is one of the maps.
     pub(crate) fn resource(&self, name: &str) -> Option<wgpu::BindingResource<'_>> {
         match name {
             "map_frame" => Some(self.frame_uniform.as_entire_binding()),
-            "depth_map" => Some(wgpu::BindingResource::TextureView(&self.depth_view)),
-            "normal_map" => Some(wgpu::BindingResource::TextureView(&self.normal_view)),
+            "depth_map" => Some(wgpu::BindingResource::TextureView(&self.depth.layers)),
+            "normal_map" => Some(wgpu::BindingResource::TextureView(&self.normals.layers)),
+            "velocity_map" => {
+                self.velocities.as_ref().map(|map| wgpu::BindingResource::TextureView(&map.layers))
+            }
             _ => None,
         }
     }
@@ -205,7 +304,25 @@ impl BodyMaps {
     }
 }
 
-fn create_pipeline(device: &wgpu::Device) -> (wgpu::BindGroupLayout, wgpu::RenderPipeline) {
+fn bytes_of(columns: u32, rows: u32, moving: bool) -> u64 {
+    let texels = 2 * u64::from(columns) * u64::from(rows);
+    let colours = if moving { 2 } else { 1 };
+    texels * (4 + 16 * colours) + <structs::MapFrame as encase::ShaderType>::min_size().get()
+}
+
+fn frame_bytes(frame: &MapFrame) -> Vec<u8> {
+    uniform_bytes(&structs::MapFrame {
+        origin_x: frame.origin_x,
+        origin_y: frame.origin_y,
+        texel: frame.texel,
+        z_front: frame.z_front,
+        z_back: frame.z_back,
+        columns: frame.columns,
+        rows: frame.rows,
+    })
+}
+
+fn create_pipeline(device: &wgpu::Device, moving: bool) -> (wgpu::BindGroupLayout, wgpu::RenderPipeline) {
     let label = Some("render_maps");
     let uniform = |binding| wgpu::BindGroupLayoutEntry {
         binding,
@@ -231,16 +348,26 @@ fn create_pipeline(device: &wgpu::Device) -> (wgpu::BindGroupLayout, wgpu::Rende
     let attribute = |location| {
         [wgpu::VertexAttribute { format: wgpu::VertexFormat::Float32x3, offset: 0, shader_location: location }]
     };
-    let attributes = [attribute(0), attribute(1)];
-    let buffers = attributes.each_ref().map(|attributes| {
-        Some(wgpu::VertexBufferLayout { array_stride: 16, step_mode: wgpu::VertexStepMode::Vertex, attributes })
-    });
+    let (vertex_entry, fragment_entry, colour_count) = if moving {
+        ("draw_moving_surface", "write_normal_and_velocity", 2)
+    } else {
+        ("draw_surface", "write_normal", 1)
+    };
+    // Positions, normals, and one more with velocities: as many as there are colours, and one.
+    let attributes: Vec<_> = (0..=colour_count).map(attribute).collect();
+    let buffers: Vec<_> = attributes
+        .iter()
+        .map(|attributes| {
+            Some(wgpu::VertexBufferLayout { array_stride: 16, step_mode: wgpu::VertexStepMode::Vertex, attributes })
+        })
+        .collect();
+    let targets = vec![Some(COLOUR_FORMAT.into()); colour_count as usize];
     let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label,
         layout: Some(&pipeline_layout),
         vertex: wgpu::VertexState {
             module: &module,
-            entry_point: Some("draw_surface"),
+            entry_point: Some(vertex_entry),
             compilation_options: Default::default(),
             buffers: &buffers,
         },
@@ -256,9 +383,9 @@ fn create_pipeline(device: &wgpu::Device) -> (wgpu::BindGroupLayout, wgpu::Rende
         multisample: Default::default(),
         fragment: Some(wgpu::FragmentState {
             module: &module,
-            entry_point: Some("write_normal"),
+            entry_point: Some(fragment_entry),
             compilation_options: Default::default(),
-            targets: &[Some(NORMAL_FORMAT.into())],
+            targets: &targets,
         }),
         multiview_mask: None,
         cache: None,

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::Range;
 use toile_kernels::{Domain, Kernel, Need, Row, Stage, TABLE, WORKGROUP_SIZE};
-use toile_model::{Model, Needs};
+use toile_model::{Maps, Model, Needs};
 use toile_scene::Rule;
 
 /// Workgroups along one dimension that every device can dispatch.
@@ -38,7 +38,7 @@ impl Plan {
             let repeats = match group[0].stage {
                 Stage::Step => 1,
                 Stage::Sweep => sweeps.max(1),
-                Stage::Frame | Stage::Handover | Stage::Measure => 0,
+                Stage::Pose | Stage::Frame | Stage::Handover | Stage::Measure => 0,
             };
             for _ in 0..repeats {
                 step.extend(group.iter().flat_map(|row| passes(row, model)));
@@ -73,7 +73,10 @@ fn holds(need: Need, needs: &Needs) -> bool {
     match need {
         Need::Nothing => true,
         Need::Body => needs.body(),
-        Need::Maps => needs.maps,
+        Need::StillMaps => needs.maps == Maps::Still,
+        Need::MovingMaps => needs.maps == Maps::Moving,
+        // What a body has is no need of a cloth.
+        Need::Joints | Need::Morphs => false,
         Need::Sphere => needs.sphere,
         Need::Holds => needs.holds,
         Need::Seams => needs.seams,
@@ -102,6 +105,7 @@ fn passes(row: &Row, model: &Model) -> Vec<Pass> {
         Domain::SeamPair => all(model.seam_pair_count()),
         Domain::SeamColour => coloured(&model.seam_colours),
         Domain::Workgroup => all(WORKGROUP_SIZE),
+        Domain::Vertex => Vec::new(),
     }
 }
 

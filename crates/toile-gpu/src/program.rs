@@ -11,7 +11,7 @@ pub struct Program {
 }
 
 /// Uniforms whose place in their buffer changes from dispatch to dispatch.
-const MOVING_UNIFORMS: [&str; 2] = ["span", "ball"];
+const MOVING_UNIFORMS: [&str; 3] = ["span", "ball", "lag"];
 
 impl Program {
     /// Compiles a kernel.

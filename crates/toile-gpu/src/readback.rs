@@ -39,6 +39,20 @@ pub fn read_normals(device: &wgpu::Device, queue: &wgpu::Queue, maps: &BodyMaps)
     Ok(split(texels.into_iter().map(Vec4::truncate).collect()))
 }
 
+/// Both layers of the velocity map, front then back, each rows × columns from the top left; `None` for bodies at rest.
+///
+/// # Errors
+/// As [`read_buffer`].
+pub fn read_velocities(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    maps: &BodyMaps,
+) -> Result<Option<[Vec<Vec3>; 2]>, GpuError> {
+    let Some(texture) = maps.velocities() else { return Ok(None) };
+    let texels: Vec<Vec4> = read_texture(device, queue, texture, 16, wgpu::TextureAspect::All)?;
+    Ok(Some(split(texels.into_iter().map(Vec4::truncate).collect())))
+}
+
 fn split<T>(mut layers: Vec<T>) -> [Vec<T>; 2] {
     let back = layers.split_off(layers.len() / 2);
     [layers, back]

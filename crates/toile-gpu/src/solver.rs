@@ -6,12 +6,12 @@ use crate::timing::{PassTime, Timer};
 use crate::{BodyMaps, GpuError, Pass, Plan, Program};
 use std::collections::BTreeMap;
 use toile_kernels::{Kernel, structs};
-use toile_model::{Merge, Model, Needs, Status, StepSettings};
+use toile_model::{Maps, Merge, Model, Needs, Status, StepSettings};
 use toile_scene::Sphere;
 use wgpu::util::DeviceExt;
 
 /// What a cloth collides with.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Colliders<'a> {
     /// Mesh bodies and inner garments, as maps.
     pub maps: Option<&'a BodyMaps>,
@@ -51,7 +51,12 @@ impl Solver {
         settings: &StepSettings,
         colliders: Colliders<'_>,
     ) -> Result<Self, GpuError> {
-        let needs = Needs::new(model, settings, colliders.maps.is_some(), colliders.sphere.is_some());
+        let maps = match colliders.maps {
+            None => Maps::None,
+            Some(maps) if maps.is_moving() => Maps::Moving,
+            Some(_) => Maps::Still,
+        };
+        let needs = Needs::new(model, settings, maps, colliders.sphere.is_some());
         let plan = Plan::new(model, &needs, settings.sweeps);
         let programs: Vec<_> =
             plan.kernels().into_iter().map(|kernel| (kernel, Program::new(device, kernel))).collect();
@@ -66,6 +71,7 @@ impl Solver {
                 let size = match binding.name.as_str() {
                     "span" => moving_size::<structs::Span>(),
                     "ball" => moving_size::<structs::Ball>(),
+                    "lag" => moving_size::<structs::Lag>(),
                     // Not "the rest of the buffer": wgpu makes vertex buffers a word longer than asked for, and arrayLength
                     // would count that word, which nobody cleared.
                     _ => wgpu::BufferSize::new(buffer.size()),
@@ -95,13 +101,14 @@ impl Solver {
         self.record_outputs(encoder);
     }
 
-    /// Records steps, at most as many as a frame has.
+    /// Records steps, at most as many as a frame has. Maps of moving bodies show them as they are at the end of these steps.
     ///
     /// # Panics
     /// When `count` is larger than the settings' steps per frame.
     pub fn record_steps(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, count: u32) {
         assert!(count <= self.settings.steps_per_frame, "a frame has {} steps", self.settings.steps_per_frame);
         self.record_sphere(device, encoder, count);
+        self.record_lags(device, encoder, count);
         let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         for index in 0..count {
             for pass in &self.plan.step {
@@ -136,6 +143,7 @@ impl Solver {
     ) -> Result<BTreeMap<Kernel, PassTime>, GpuError> {
         let mut encoder = device.create_command_encoder(&Default::default());
         self.record_sphere(device, &mut encoder, 1);
+        self.record_lags(device, &mut encoder, 1);
         queue.submit([encoder.finish()]);
         let mut times: BTreeMap<Kernel, PassTime> = BTreeMap::new();
         for pass in &self.plan.step {
@@ -288,24 +296,53 @@ impl Solver {
     /// Records where the sphere is in each of the coming steps.
     fn record_sphere(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, count: u32) {
         let Some(sphere) = &self.sphere else { return };
-        let mut bytes = Vec::new();
-        for index in 0..u64::from(count) {
-            let (centre, velocity) = sphere.at((self.step + index + 1) as f64 * f64::from(self.settings.dt));
-            bytes.extend(uniform_bytes(&structs::Ball {
+        let dt = f64::from(self.settings.dt);
+        let balls = (0..u64::from(count)).map(|index| {
+            let [start, end] = [0, 1].map(|more| (self.step + index + more) as f64 * dt);
+            let [centre, next] = [start, end].map(|time| sphere.at(time).0);
+            uniform_bytes(&structs::Ball {
                 centre: centre.as_vec3(),
                 radius: sphere.radius as f32 + self.settings.thickness,
-                velocity: velocity.as_vec3(),
+                velocity: ((next - centre) / dt).as_vec3(),
                 after_maps: u32::from(self.sphere_after_maps),
-            }));
+                spin: sphere.spin(start).as_vec3(),
+            })
+        });
+        self.record_moving_uniform(device, encoder, "ball", balls);
+    }
+
+    /// Records how long before the time of the maps each of the coming steps begins and ends.
+    fn record_lags(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, count: u32) {
+        if self.buffers.find("lag").is_none() {
+            return;
+        }
+        let dt = self.settings.dt;
+        let lags = (0..count).map(|index| {
+            uniform_bytes(&structs::Lag { start: (count - index) as f32 * dt, end: (count - index - 1) as f32 * dt })
+        });
+        self.record_moving_uniform(device, encoder, "lag", lags);
+    }
+
+    /// Records the entries of a uniform that moves from step to step.
+    fn record_moving_uniform(
+        &self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        name: &str,
+        entries: impl Iterator<Item = Vec<u8>>,
+    ) {
+        let mut bytes = Vec::new();
+        for entry in entries {
+            bytes.extend(entry);
             bytes.resize(bytes.len().next_multiple_of(MOVING_UNIFORM_STRIDE as usize), 0);
         }
         // A buffer of its own, not a queue write: the caller may record several frames before submitting any.
         let upload = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("ball upload"),
+            label: Some(name),
             contents: &bytes,
             usage: wgpu::BufferUsages::COPY_SRC,
         });
-        encoder.copy_buffer_to_buffer(&upload, 0, self.buffers.get("ball"), 0, bytes.len() as u64);
+        encoder.copy_buffer_to_buffer(&upload, 0, self.buffers.get(name), 0, bytes.len() as u64);
     }
 }
 

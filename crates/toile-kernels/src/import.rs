@@ -11,6 +11,7 @@ const SHARED: &[(&str, &str)] = &shared![
     "item",
     "limit",
     "map_frame",
+    "map_planes",
     "midpoint",
     "over_long",
     "point",
@@ -22,6 +23,7 @@ const SHARED: &[(&str, &str)] = &shared![
     "span",
     "status",
     "step_params",
+    "vertices",
 ];
 
 /// The WGSL of a kernel with its imports resolved, each shared file once, before its first use.

@@ -1,7 +1,7 @@
 //! The structs that Rust and WGSL share. encase lays them out; a test compares each with naga's layout of the WGSL.
 
 use encase::ShaderType;
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 
 /// The numbers of one step, the same for every particle. `wgsl/shared/step_params.wgsl`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
@@ -34,6 +34,8 @@ pub struct StepParams {
     pub particle_count: u32,
     /// Number of quads.
     pub quad_count: u32,
+    /// 1: the whole way of a point is tested against the bodies.
+    pub swept: u32,
 }
 
 /// The part of an array that one dispatch works on. `wgsl/shared/span.wgsl`.
@@ -163,6 +165,57 @@ pub struct Ball {
     pub velocity: Vec3,
     /// 1 when the probes already hold what the points see in the maps.
     pub after_maps: u32,
+    /// Angular velocity [rad/s].
+    pub spin: Vec3,
+}
+
+/// How long before the time of the maps a step begins and ends. `wgsl/step/sample_moving_maps.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct Lag {
+    /// From the start of the step [s].
+    pub start: f32,
+    /// From its end [s].
+    pub end: f32,
+}
+
+/// The vertices of a body. `wgsl/shared/vertices.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct Vertices {
+    /// Number of vertices.
+    pub count: u32,
+    /// 1 / time since the last pose, 0 when there was none [1/s].
+    pub rate: f32,
+}
+
+/// What one morph target does to one vertex. `wgsl/maps/morph_body.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct Displacement {
+    /// Displacement of the bind position.
+    pub position: Vec3,
+    /// Which target.
+    pub morph: u32,
+    /// Change of the bind normal.
+    pub normal: Vec3,
+}
+
+/// The share that a joint has in a vertex. `wgsl/maps/skin_body.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct Influence {
+    /// Which joint.
+    pub joint: u32,
+    /// Share [1].
+    pub weight: f32,
+}
+
+/// First three rows of the matrix of a joint, from bind space to the world. `wgsl/maps/skin_body.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct Joint {
+    /// Row of x.
+    pub row_x: Vec4,
+    /// Row of y.
+    pub row_y: Vec4,
+    /// Row of z.
+    pub row_z: Vec4,
 }
 
 /// What a frame reports. `wgsl/shared/status.wgsl`.

@@ -5,6 +5,8 @@ use crate::import::resolve;
 /// In which part of a run a kernel works.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Stage {
+    /// Whenever the maps are drawn anew: a body takes its next pose. Planned for a body, not for a cloth.
+    Pose,
     /// Once per step.
     Step,
     /// Once per sweep: consecutive rows of this stage are repeated together as often as the settings say.
@@ -36,6 +38,8 @@ pub enum Domain {
     SeamPair,
     /// A seam pair; one dispatch per colour.
     SeamColour,
+    /// A vertex of a body.
+    Vertex,
     /// One workgroup in all.
     Workgroup,
 }
@@ -47,8 +51,14 @@ pub enum Need {
     Nothing,
     /// Any body.
     Body,
-    /// A mesh body.
-    Maps,
+    /// Mesh bodies at rest.
+    StillMaps,
+    /// Mesh bodies that move.
+    MovingMaps,
+    /// A body whose vertices follow joints.
+    Joints,
+    /// A body with morph targets.
+    Morphs,
     /// An analytic sphere.
     Sphere,
     /// Held edges.
@@ -118,6 +128,12 @@ macro_rules! kernels {
 }
 
 kernels! {
+    /// Bind positions as the morph targets of a pose change them.
+    MorphBody "maps" "morph_body" Pose Vertex Morphs;
+    /// Vertices of a body follow their joints.
+    SkinBody "maps" "skin_body" Pose Vertex Joints;
+    /// Velocities of a moving surface. W §4.3.
+    VertexVelocities "maps" "vertex_velocities" Pose Vertex Nothing;
     /// Springs, gravity and damping. D eq. 2.
     SpringForces "step" "spring_forces" Step Particle Nothing;
     /// Reaction of the body to the pressing force. W eq. 16.
@@ -136,8 +152,10 @@ kernels! {
     LimitPredictive "step" "limit_predictive" Sweep LimitColour RulePredictive;
     /// Points of the quads that are tested. D §6.
     QuadMidpoints "step" "quad_midpoints" Step Quad Body;
-    /// What points see in the maps. W §4.4.
-    SampleMaps "step" "sample_maps" Step Point Maps;
+    /// What points see in the maps of bodies at rest. W §4.4.
+    SampleMaps "step" "sample_maps" Step Point StillMaps;
+    /// What points see in the maps of moving bodies. W §4.3, §4.4.
+    SampleMovingMaps "step" "sample_moving_maps" Step Point MovingMaps;
     /// What points see of the sphere.
     SampleSphere "step" "sample_sphere" Step Point Sphere;
     /// Each particle answers its own contact and those of its quads. D §6, W eq. 15.
@@ -171,7 +189,8 @@ impl Kernel {
     }
 }
 
-/// The WGSL of the render pass that draws the depth and normal maps: vertex entry `draw_surface`, fragment entry `write_normal`.
+/// The WGSL of the render pass that draws the maps: vertex entry `draw_surface` and fragment entry `write_normal` for bodies at
+/// rest, `draw_moving_surface` and `write_normal_and_velocity` for those that move.
 pub fn render_maps_source() -> String {
     resolve(include_str!("../../../wgsl/maps/render_maps.wgsl"))
 }

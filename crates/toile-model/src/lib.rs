@@ -33,6 +33,6 @@ pub use dressing::{Dressing, DressingError, Stage};
 pub use error::ModelError;
 pub use map_frame::MapFrame;
 pub use model::{Hold, Limit, Link, Merge, Model, NO_CORNER, PanelMesh, SeamPair, Spring, SpringKind};
-pub use needs::Needs;
+pub use needs::{Maps, Needs};
 pub use status::Status;
 pub use step::StepSettings;

@@ -32,8 +32,7 @@ impl MapFrame {
     /// When `texel` is not positive or the bounds are not finite.
     pub fn around(bounds: [Vec3; 2], texel: f32) -> Self {
         let [low, high] = bounds;
-        assert!(texel > 0.0, "the texel of the maps must be positive, not {texel} m");
-        assert!(low.is_finite() && high.is_finite(), "the bounds of a body must be finite");
+        check(bounds, texel);
         let size = high - low;
         Self {
             origin_x: low.x - texel,
@@ -45,6 +44,35 @@ impl MapFrame {
             z_back: low.z - DEPTH_PADDING,
         }
     }
+
+    /// Columns and rows that [`MapFrame::moving`] needs for bounds of a size [m].
+    pub fn size_for(size: Vec3, texel: f32) -> [u32; 2] {
+        [size.x, size.y].map(|length| (length / texel).ceil() as u32 + 3)
+    }
+
+    /// The frame around the bounds of a body that moves [m], with a fixed number of columns and rows. Its borders lie on whole
+    /// texels of the world, so that what stands still keeps its texels.
+    ///
+    /// # Panics
+    /// As [`MapFrame::around`].
+    pub fn moving(bounds: [Vec3; 2], texel: f32, [columns, rows]: [u32; 2]) -> Self {
+        check(bounds, texel);
+        let [low, high] = bounds;
+        Self {
+            origin_x: ((low.x / texel).floor() - 1.0) * texel,
+            origin_y: ((high.y / texel).ceil() + 1.0) * texel,
+            texel,
+            columns,
+            rows,
+            z_front: high.z + DEPTH_PADDING,
+            z_back: low.z - DEPTH_PADDING,
+        }
+    }
+}
+
+fn check([low, high]: [Vec3; 2], texel: f32) {
+    assert!(texel > 0.0, "the texel of the maps must be positive, not {texel} m");
+    assert!(low.is_finite() && high.is_finite(), "the bounds of a body must be finite");
 }
 
 #[cfg(test)]
@@ -60,6 +88,22 @@ mod tests {
         let [right, bottom] = [frame.origin_x + 6.0 * 0.5, frame.origin_y - 6.0 * 0.5];
         assert!(right >= 1.0 + 0.5 && bottom <= 0.0 - 0.5);
         assert_eq!((frame.z_front, frame.z_back), (0.501, -0.251));
+    }
+
+    #[test]
+    fn a_moving_frame_covers_its_bounds_wherever_they_are() {
+        let size = vec3(0.93, 1.68, 0.3);
+        let columns_and_rows = MapFrame::size_for(size, 0.005);
+        for shift in [0.0, 0.001, 0.0049, -0.0033, 3.7] {
+            let low = vec3(-0.4, 0.02, -0.1) + shift;
+            let frame = MapFrame::moving([low, low + size], 0.005, columns_and_rows);
+            let right = frame.origin_x + 0.005 * frame.columns as f32;
+            let bottom = frame.origin_y - 0.005 * frame.rows as f32;
+            assert!(frame.origin_x < low.x - 0.004 && right > low.x + size.x, "{shift}: {frame:?}");
+            assert!(frame.origin_y > low.y + size.y + 0.004 && bottom < low.y, "{shift}: {frame:?}");
+            let texels = frame.origin_x / 0.005;
+            assert!((texels - texels.round()).abs() < 1e-3, "{shift}: the border lies on a texel");
+        }
     }
 
     #[test]

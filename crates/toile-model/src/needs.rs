@@ -3,11 +3,22 @@
 use crate::{Model, StepSettings};
 use toile_scene::Rule;
 
+/// What the maps show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Maps {
+    /// There are none.
+    None,
+    /// Bodies at rest: depth and normals.
+    Still,
+    /// Bodies that move: velocities too.
+    Moving,
+}
+
 /// What a solver must have for a model: passes, buffers and textures exist for this and nothing else.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Needs {
-    /// A mesh body, sampled through maps.
-    pub maps: bool,
+    /// Mesh bodies, sampled through maps.
+    pub maps: Maps,
     /// An analytic sphere.
     pub sphere: bool,
     /// Held edges.
@@ -22,7 +33,7 @@ pub struct Needs {
 
 impl Needs {
     /// What this model needs, with or without maps and sphere.
-    pub fn new(model: &Model, settings: &StepSettings, maps: bool, sphere: bool) -> Self {
+    pub fn new(model: &Model, settings: &StepSettings, maps: Maps, sphere: bool) -> Self {
         let limits = !model.limits.is_empty();
         Self {
             maps,
@@ -36,6 +47,6 @@ impl Needs {
 
     /// Whether there is any body to collide with.
     pub fn body(&self) -> bool {
-        self.maps || self.sphere
+        self.maps != Maps::None || self.sphere
     }
 }

@@ -37,6 +37,8 @@ pub struct StepSettings {
     pub sweeps: u32,
     /// Elongation that the limits allow [1].
     pub threshold: f32,
+    /// Whether the whole way of a point is tested against the bodies, not its end alone.
+    pub swept: bool,
 }
 
 impl StepSettings {
@@ -62,6 +64,7 @@ impl StepSettings {
             rule: settings.velocity_modification.rule,
             sweeps: settings.velocity_modification.sweeps,
             threshold: settings.fabric.threshold as f32,
+            swept: settings.swept,
         }
     }
 }

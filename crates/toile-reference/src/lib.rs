@@ -17,5 +17,5 @@ pub mod step;
 
 pub use contact::{Contact, Probe};
 pub use exact_distance::{ExactDistance, PenetrationSummary};
-pub use particles::{Ball, Midpoints, Particles};
+pub use particles::{Ball, Lag, Midpoints, Particles};
 pub use reference::{Colliders, Reference};

@@ -1,11 +1,17 @@
 //! Depth, normal and velocity of a body as two cameras see it, in front and behind. W §4.
 
+mod morph_body;
 mod render_maps;
+mod skin_body;
+mod vertex_velocities;
 
 use glam::Vec3;
 use toile_model::MapFrame;
 
-pub use render_maps::{Surface, render_maps};
+pub use morph_body::morph_body;
+pub use render_maps::{Surface, render_maps, render_maps_in};
+pub use skin_body::skin_body;
+pub use vertex_velocities::vertex_velocities;
 
 /// The maps of a body. Layer 0 is what the front camera at +z sees, layer 1 what the back camera at −z sees.
 ///
@@ -18,6 +24,6 @@ pub struct BodyMaps {
     pub depth: [Vec<f32>; 2],
     /// Unit normals of the surface, facing the camera; zero where there is nothing.
     pub normals: [Vec<Vec3>; 2],
-    /// Velocities of the surface [m/s]; `None` for a body at rest.
+    /// Velocities of the surface [m/s]; `None` for bodies at rest.
     pub velocities: Option<[Vec<Vec3>; 2]>,
 }

@@ -41,22 +41,42 @@ pub struct Midpoints {
 /// An analytic sphere as one step meets it, for [`sample_sphere`](crate::step::sample_sphere).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ball {
-    /// Centre [m].
+    /// Centre at the start of the step [m].
     pub centre: Vec3,
     /// Radius with the thickness of the cloth added [m].
     pub radius: f32,
-    /// Velocity of the centre [m/s].
+    /// Velocity of the centre over the step [m/s].
     pub velocity: Vec3,
+    /// Angular velocity [rad/s].
+    pub spin: Vec3,
 }
 
 impl Ball {
-    /// The sphere at the end of step `step` (0 is the first): where the particles will be once they have moved.
+    /// The sphere during step `step` (0 is the first).
     pub fn at(sphere: &Sphere, step: u64, settings: &StepSettings) -> Self {
-        let (centre, velocity) = sphere.at((step + 1) as f64 * f64::from(settings.dt));
+        let dt = f64::from(settings.dt);
+        let [start, end] = [step, step + 1].map(|step| sphere.at(step as f64 * dt).0);
         Self {
-            centre: centre.as_vec3(),
+            centre: start.as_vec3(),
             radius: sphere.radius as f32 + settings.thickness,
-            velocity: velocity.as_vec3(),
+            velocity: ((end - start) / dt).as_vec3(),
+            spin: sphere.spin(step as f64 * dt).as_vec3(),
         }
+    }
+}
+
+/// How long before the time of the maps a step begins and ends.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Lag {
+    /// From the start of the step [s].
+    pub start: f32,
+    /// From its end [s].
+    pub end: f32,
+}
+
+impl Lag {
+    /// That of step `index` of `count` steps at whose end the maps show the bodies.
+    pub fn of(index: u32, count: u32, dt: f32) -> Self {
+        Self { start: (count - index) as f32 * dt, end: (count - index - 1) as f32 * dt }
     }
 }

@@ -1,7 +1,7 @@
 //! The life of the GPU simulation on the CPU.
 
 use crate::maps::BodyMaps;
-use crate::{Ball, Contact, Particles, Probe, digest, frame, step};
+use crate::{Ball, Contact, Lag, Particles, Probe, digest, frame, step};
 use glam::Vec3;
 use toile_model::{Merge, Model, Status, StepSettings};
 use toile_scene::{Rule, Sphere};
@@ -47,6 +47,7 @@ pub struct Colliders {
 ///     rule: Rule::Predictive,
 ///     sweeps: 1,
 ///     threshold: 0.05,
+///     swept: true,
 /// };
 /// let mut reference = Reference::new(&model, &settings, Colliders::default());
 /// reference.frame();
@@ -88,8 +89,28 @@ impl Reference {
         sewn
     }
 
-    /// Does one step.
+    /// Takes maps that show the bodies as they will be at the end of the coming steps.
+    ///
+    /// # Panics
+    /// When the simulation has no maps yet.
+    pub fn set_maps(&mut self, maps: BodyMaps) {
+        assert!(self.colliders.maps.is_some(), "a simulation without maps does not get any later");
+        self.colliders.maps = Some(maps);
+    }
+
+    /// Does one step, at whose end the maps show the bodies.
     pub fn step(&mut self) {
+        self.steps(1);
+    }
+
+    /// Does steps; the maps show the bodies at the end of the last of them.
+    pub fn steps(&mut self, count: u32) {
+        for index in 0..count {
+            self.one_step(Lag::of(index, count, self.settings.dt));
+        }
+    }
+
+    fn one_step(&mut self, lag: Lag) {
         let Self { model, settings, particles, .. } = self;
         let dt = settings.dt;
         let has_body = self.colliders.maps.is_some() || self.colliders.sphere.is_some();
@@ -106,7 +127,7 @@ impl Reference {
             self.sweep_velocities();
         }
         if has_body {
-            self.collide();
+            self.collide(lag);
         }
         let Self { model, settings, particles, .. } = self;
         for _ in 0..settings.sweeps {
@@ -143,18 +164,18 @@ impl Reference {
         }
     }
 
-    fn collide(&mut self) {
+    fn collide(&mut self, lag: Lag) {
         let midpoints = step::quad_midpoints(&self.particles.positions, &self.particles.velocities, &self.model.quads);
-        let quads = self.probes(&midpoints.positions, &midpoints.velocities);
-        let own = self.probes(&self.particles.positions, &self.particles.velocities);
+        let quads = self.probes(&midpoints.positions, &midpoints.velocities, lag);
+        let own = self.probes(&self.particles.positions, &self.particles.velocities, lag);
         let probes = step::Probes { particles: &own, quads: &quads };
         self.contacts =
             step::collide(&mut self.particles, &self.model.particle_quads, &midpoints, probes, &self.settings);
     }
 
-    fn probes(&self, positions: &[Vec3], velocities: &[Vec3]) -> Vec<Probe> {
+    fn probes(&self, positions: &[Vec3], velocities: &[Vec3], lag: Lag) -> Vec<Probe> {
         let mut probes = match &self.colliders.maps {
-            Some(maps) => step::sample_maps(positions, velocities, maps, &self.settings),
+            Some(maps) => step::sample_maps(positions, velocities, maps, lag, &self.settings),
             None => vec![Probe::default(); positions.len()],
         };
         if let Some(sphere) = &self.colliders.sphere {
@@ -166,9 +187,7 @@ impl Reference {
 
     /// Does the steps of one frame.
     pub fn frame(&mut self) {
-        for _ in 0..self.settings.steps_per_frame {
-            self.step();
-        }
+        self.steps(self.settings.steps_per_frame);
     }
 
     /// What the simulation reports of its state.

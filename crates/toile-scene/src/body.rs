@@ -49,4 +49,9 @@ impl Sphere {
             }
         }
     }
+
+    /// Angular velocity at a time [rad/s].
+    pub fn spin(&self, _time: f64) -> DVec3 {
+        DVec3::ZERO
+    }
 }

@@ -34,3 +34,18 @@ pub struct MeshSequence {
     /// Positions [m] and unit normals of each frame, each of shape [vertex_count].
     pub frames: Vec<[Vec<Vec3>; 2]>,
 }
+
+impl MeshSequence {
+    /// Positions [m] and unit normals at a time [s].
+    ///
+    /// # Panics
+    /// When there is no frame.
+    pub fn at(&self, time: f64) -> [Vec<Vec3>; 2] {
+        let place = (time * self.frame_rate).clamp(0.0, (self.frames.len() - 1) as f64);
+        let first = place.floor() as usize;
+        let share = (place - place.floor()) as f32;
+        let [a, b] = [&self.frames[first], &self.frames[(first + 1).min(self.frames.len() - 1)]];
+        let between = |values: usize| a[values].iter().zip(&b[values]).map(move |(a, b)| a.lerp(*b, share));
+        [between(0).collect(), between(1).map(|normal| normal.normalize_or(Vec3::Y)).collect()]
+    }
+}

@@ -24,6 +24,9 @@ pub struct Settings {
     pub frame_rate: f64,
     /// Part of the largest stable step that is used [1], 0 to 1.
     pub safety: f64,
+    /// Whether the whole way of a point is tested against the bodies, not its end alone: fast bodies and fast cloth then do not
+    /// pass through each other.
+    pub swept: bool,
 }
 
 impl Settings {
@@ -40,6 +43,7 @@ impl Settings {
             texel: 0.005,
             frame_rate: 60.0,
             safety: 0.8,
+            swept: true,
         }
     }
 }

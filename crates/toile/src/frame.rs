@@ -21,6 +21,7 @@ impl From<&Frame> for toile_gpu::Surface {
         Self {
             positions: frame.positions.clone(),
             normals: frame.normals.clone(),
+            velocities: None,
             indices: frame.indices.clone(),
             index_count: frame.index_count,
         }

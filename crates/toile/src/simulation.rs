@@ -59,7 +59,7 @@ impl Simulation {
             device,
             model,
             settings,
-            toile_gpu::Colliders { maps: colliders.maps.as_deref(), sphere: colliders.sphere },
+            toile_gpu::Colliders { maps: colliders.maps.as_deref(), sphere: colliders.sphere.clone() },
         )?;
         let triangles = model.triangles();
         let indices = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {

@@ -1,4 +1,4 @@
-//! The maps of a body by casting a ray through every texel's centre. W §4.1 and §4.2.
+//! The maps of a body by casting a ray through every texel's centre. W §4.1 to §4.3.
 
 use super::BodyMaps;
 use glam::{DVec2, Vec3, dvec2};
@@ -13,6 +13,8 @@ pub struct Surface<'a> {
     pub mesh: &'a Mesh,
     /// Distance [m] by which every vertex is moved out along its normal.
     pub thickness: f32,
+    /// Velocities of its vertices [m/s], shape [vertex_count]; `None` at rest.
+    pub velocities: Option<&'a [Vec3]>,
 }
 
 /// Renders the maps of all surfaces together with texels of the edge length `texel` [m]. W §4.1 and §4.2.
@@ -24,19 +26,26 @@ pub struct Surface<'a> {
 /// When no surface has a vertex.
 pub fn render_maps(surfaces: &[Surface], texel: f32) -> BodyMaps {
     let offset: Vec<Vec<Vec3>> = surfaces.iter().map(offset_positions).collect();
-    let frame = MapFrame::around(bounds(&offset), texel);
+    render_maps_in(surfaces, MapFrame::around(bounds(&offset), texel))
+}
+
+/// Renders the maps of all surfaces into a frame. They have velocities when a surface has.
+pub fn render_maps_in(surfaces: &[Surface], frame: MapFrame) -> BodyMaps {
     let count = frame.columns as usize * frame.rows as usize;
+    let moving = surfaces.iter().any(|surface| surface.velocities.is_some());
     let mut maps = BodyMaps {
         frame,
         depth: [vec![1.0; count], vec![1.0; count]],
         normals: [vec![Vec3::ZERO; count], vec![Vec3::ZERO; count]],
-        velocities: None,
+        velocities: moving.then(|| [vec![Vec3::ZERO; count], vec![Vec3::ZERO; count]]),
     };
-    for (surface, positions) in surfaces.iter().zip(&offset) {
+    for surface in surfaces {
+        let positions = offset_positions(surface);
         for triangle in &surface.mesh.triangles {
             let corners = triangle.map(|i| positions[i as usize]);
             let normals = triangle.map(|i| surface.mesh.normals[i as usize]);
-            draw(&mut maps, corners, normals);
+            let velocities = triangle.map(|i| surface.velocities.map_or(Vec3::ZERO, |all| all[i as usize]));
+            draw(&mut maps, corners, normals, velocities);
         }
     }
     maps
@@ -57,7 +66,7 @@ fn bounds(surfaces: &[Vec<Vec3>]) -> [Vec3; 2] {
 }
 
 /// Draws one triangle into both layers.
-fn draw(maps: &mut BodyMaps, corners: [Vec3; 3], normals: [Vec3; 3]) {
+fn draw(maps: &mut BodyMaps, corners: [Vec3; 3], normals: [Vec3; 3], velocities: [Vec3; 3]) {
     let frame = maps.frame;
     let [a, b, c] = corners.map(|corner| texel_position(&frame, corner));
     let area = (b - a).perp_dot(c - a);
@@ -76,7 +85,7 @@ fn draw(maps: &mut BodyMaps, corners: [Vec3; 3], normals: [Vec3; 3]) {
             ];
             if shares.iter().all(|share| *share >= 0.0) {
                 let texel = row as usize * frame.columns as usize + column as usize;
-                plot(maps, texel, shares.map(|share| share as f32), corners.map(|p| p.z), normals);
+                plot(maps, texel, shares.map(|share| share as f32), corners.map(|p| p.z), normals, velocities);
             }
         }
     }
@@ -101,7 +110,14 @@ fn centres(low: f64, high: f64, count: u32) -> RangeInclusive<u32> {
 }
 
 /// Writes a point of the surface into each layer where it is nearer to the camera than what is there.
-fn plot(maps: &mut BodyMaps, texel: usize, shares: [f32; 3], heights: [f32; 3], normals: [Vec3; 3]) {
+fn plot(
+    maps: &mut BodyMaps,
+    texel: usize,
+    shares: [f32; 3],
+    heights: [f32; 3],
+    normals: [Vec3; 3],
+    velocities: [Vec3; 3],
+) {
     let [s, t, u] = shares;
     let range = maps.frame.z_front - maps.frame.z_back;
     let z = heights[0] * s + heights[1] * t + heights[2] * u;
@@ -111,6 +127,9 @@ fn plot(maps: &mut BodyMaps, texel: usize, shares: [f32; 3], heights: [f32; 3], 
         if depth[layer] < maps.depth[layer][texel] {
             maps.depth[layer][texel] = depth[layer];
             maps.normals[layer][texel] = facing(normal, towards_camera);
+            if let Some(layers) = &mut maps.velocities {
+                layers[layer][texel] = velocities[0] * s + velocities[1] * t + velocities[2] * u;
+            }
         }
     }
 }

@@ -1,0 +1,223 @@
+//! A body that moves, on the device: posed whenever the maps are drawn anew.
+
+use crate::maps::padded;
+use crate::trail::{dispatch, sized, vertices_uniform};
+use crate::{GpuError, Program, Surface, Trail};
+use encase::StorageBuffer;
+use glam::Vec3;
+use toile_kernels::{Kernel, structs};
+use toile_scene::{MeshSequence, Motion, MovingMesh, Pose, Rig, Skin};
+use wgpu::util::DeviceExt;
+
+/// A body that moves, on the device.
+#[derive(Debug)]
+pub struct MovingBody {
+    surface: Surface,
+    trail: Trail,
+    poser: Poser,
+    /// Time of the last pose [s]; `None` before the first.
+    time: Option<f64>,
+    bytes: u64,
+}
+
+/// What gives the vertices their places.
+#[derive(Debug)]
+enum Poser {
+    Joints(Box<Joints>),
+    Sequence(MeshSequence),
+}
+
+/// Skinning.
+#[derive(Debug)]
+struct Joints {
+    rig: Rig,
+    joints: wgpu::Buffer,
+    morph: Option<Morph>,
+    skin: Program,
+    group: wgpu::BindGroup,
+    vertex_count: u32,
+}
+
+#[derive(Debug)]
+struct Morph {
+    weights: wgpu::Buffer,
+    program: Program,
+    group: wgpu::BindGroup,
+}
+
+impl MovingBody {
+    /// Uploads a body as it stands at time 0. It has no pose and no velocity before the first [`MovingBody::record_pose`].
+    ///
+    /// # Errors
+    /// [`GpuError::BufferTooLarge`] when it does not fit the device.
+    pub fn new(device: &wgpu::Device, body: &MovingMesh) -> Result<Self, GpuError> {
+        let available = device.limits().max_storage_buffer_binding_size;
+        let vertex_count = body.mesh.positions.len() as u32;
+        let size = 16 * u64::from(vertex_count);
+        if size > available {
+            return Err(GpuError::BufferTooLarge { name: "body_positions".to_owned(), needed: size, available });
+        }
+        let usage = wgpu::BufferUsages::STORAGE
+            | wgpu::BufferUsages::VERTEX
+            | wgpu::BufferUsages::COPY_SRC
+            | wgpu::BufferUsages::COPY_DST;
+        let positions = upload_vec3s(device, "body_positions", &body.mesh.positions, usage);
+        let normals = upload_vec3s(device, "body_normals", &body.mesh.normals, usage);
+        let trail = Trail::new(device, &positions, vertex_count);
+        let surface = Surface {
+            velocities: Some(trail.velocities().clone()),
+            indices: Surface::indices(device, &body.mesh),
+            index_count: 3 * body.mesh.triangles.len() as u32,
+            positions,
+            normals,
+        };
+        let mut bytes = 2 * size + trail.bytes() + surface.indices.size();
+        let poser = match &body.motion {
+            Motion::Skinned { skin, rig } => {
+                let (joints, joint_bytes) = Joints::new(device, skin, rig, &surface, available)?;
+                bytes += joint_bytes;
+                Poser::Joints(Box::new(joints))
+            }
+            Motion::Sequence(sequence) => Poser::Sequence(sequence.clone()),
+        };
+        Ok(Self { surface, trail, poser, time: None, bytes })
+    }
+
+    /// Records the pose at a time [s], and the velocities since the pose before; the first pose stands still.
+    pub fn record_pose(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, time: f64) {
+        self.trail.record_leaving(encoder);
+        match &self.poser {
+            Poser::Joints(joints) => joints.record(device, encoder, &joints.rig.pose(time)),
+            Poser::Sequence(sequence) => {
+                let [positions, normals] = sequence.at(time);
+                for (values, target) in [(positions, &self.surface.positions), (normals, &self.surface.normals)] {
+                    let upload = upload_vec3s(device, "sequence upload", &values, wgpu::BufferUsages::COPY_SRC);
+                    encoder.copy_buffer_to_buffer(&upload, 0, target, 0, upload.size());
+                }
+            }
+        }
+        let seconds = self.time.map_or(0.0, |last| time - last);
+        self.trail.record_arrival(device, encoder, seconds);
+        self.time = Some(time);
+    }
+
+    /// The body as the maps draw it.
+    pub fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// Bytes on the device.
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
+}
+
+impl Joints {
+    fn new(
+        device: &wgpu::Device,
+        skin: &Skin,
+        rig: &Rig,
+        surface: &Surface,
+        available: u64,
+    ) -> Result<(Self, u64), GpuError> {
+        let vertex_count = skin.positions.len() as u32;
+        let size = 16 * u64::from(vertex_count);
+        let storage = wgpu::BufferUsages::STORAGE;
+        let mut bytes = 0;
+        let mut upload = |label: &str, contents: &[u8]| {
+            let needed = contents.len() as u64;
+            if needed > available {
+                return Err(GpuError::BufferTooLarge { name: label.to_owned(), needed, available });
+            }
+            bytes += needed.max(16);
+            Ok(create(device, label, contents, storage | wgpu::BufferUsages::COPY_DST))
+        };
+        let vertices = vertices_uniform(device, vertex_count);
+        let bind_positions = upload("bind_positions", bytemuck::cast_slice(&padded(&skin.positions)))?;
+        let bind_normals = upload("bind_normals", bytemuck::cast_slice(&padded(&skin.normals)))?;
+        let influence_offsets = upload("influence_offsets", bytemuck::cast_slice(&skin.influence_offsets))?;
+        let influences: Vec<_> =
+            skin.influences.iter().map(|i| structs::Influence { joint: i.joint, weight: i.weight }).collect();
+        let influences = upload("influences", &array(&influences))?;
+        let pose = rig.pose(0.0);
+        let joints = upload("joints", bytemuck::cast_slice(&pose.joints))?;
+        let mut morphed = [bind_positions.clone(), bind_normals.clone()];
+        let morph = match &skin.morphs {
+            None => None,
+            Some(morphs) => {
+                let offsets = upload("morph_offsets", bytemuck::cast_slice(&morphs.offsets))?;
+                let displacements: Vec<_> = morphs
+                    .displacements
+                    .iter()
+                    .map(|d| structs::Displacement { position: d.position, morph: d.target, normal: d.normal })
+                    .collect();
+                let displacements = upload("displacements", &array(&displacements))?;
+                let weights = upload("morph_weights", bytemuck::cast_slice(&pose.morph_weights))?;
+                let zeros = vec![0; size as usize];
+                morphed = [upload("morphed_positions", &zeros)?, upload("morphed_normals", &zeros)?];
+                let program = Program::new(device, Kernel::MorphBody);
+                let group = program.bind(device, |binding| match binding.name.as_str() {
+                    "vertices" => vertices.as_entire_binding(),
+                    "bind_positions" => bind_positions.as_entire_binding(),
+                    "bind_normals" => bind_normals.as_entire_binding(),
+                    "morph_offsets" => offsets.as_entire_binding(),
+                    "displacements" => displacements.as_entire_binding(),
+                    "morph_weights" => weights.as_entire_binding(),
+                    "morphed_positions" => morphed[0].as_entire_binding(),
+                    "morphed_normals" => morphed[1].as_entire_binding(),
+                    other => panic!("a morphed body has no {other}"),
+                });
+                Some(Morph { weights, program, group })
+            }
+        };
+        let program = Program::new(device, Kernel::SkinBody);
+        let group = program.bind(device, |binding| match binding.name.as_str() {
+            "vertices" => vertices.as_entire_binding(),
+            "morphed_positions" => morphed[0].as_entire_binding(),
+            "morphed_normals" => morphed[1].as_entire_binding(),
+            "influence_offsets" => influence_offsets.as_entire_binding(),
+            "influences" => influences.as_entire_binding(),
+            "joints" => joints.as_entire_binding(),
+            "body_positions" => sized(&surface.positions, size),
+            "body_normals" => sized(&surface.normals, size),
+            other => panic!("a skinned body has no {other}"),
+        });
+        Ok((Self { rig: rig.clone(), joints, morph, skin: program, group, vertex_count }, bytes))
+    }
+
+    fn record(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, pose: &Pose) {
+        let mut write = |contents: &[u8], target: &wgpu::Buffer| {
+            let upload = create(device, "pose upload", contents, wgpu::BufferUsages::COPY_SRC);
+            encoder.copy_buffer_to_buffer(&upload, 0, target, 0, upload.size().min(target.size()));
+        };
+        write(bytemuck::cast_slice(&pose.joints), &self.joints);
+        if let Some(morph) = &self.morph {
+            write(bytemuck::cast_slice(&pose.morph_weights), &morph.weights);
+        }
+        let mut compute = encoder.begin_compute_pass(&Default::default());
+        if let Some(morph) = &self.morph {
+            dispatch(&mut compute, &morph.program, &morph.group, Kernel::MorphBody, self.vertex_count);
+        }
+        dispatch(&mut compute, &self.skin, &self.group, Kernel::SkinBody, self.vertex_count);
+    }
+}
+
+/// A buffer with these contents, and not less than a vec4: a binding cannot be empty.
+fn create(device: &wgpu::Device, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+    let mut contents = contents.to_vec();
+    contents.resize(contents.len().next_multiple_of(4).max(16), 0);
+    device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents: &contents, usage })
+}
+
+fn upload_vec3s(device: &wgpu::Device, label: &str, values: &[Vec3], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+    create(device, label, bytemuck::cast_slice(&padded(values)), usage)
+}
+
+fn array<T>(values: &Vec<T>) -> Vec<u8>
+where
+    Vec<T>: encase::ShaderType + encase::internal::WriteInto,
+{
+    let mut buffer = StorageBuffer::new(Vec::new());
+    buffer.write(values).expect("a vector grows to what is written");
+    buffer.into_inner()
+}

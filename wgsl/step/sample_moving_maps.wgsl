@@ -1,0 +1,47 @@
+// What each point sees of moving bodies in the depth, normal and velocity maps, which show them at the end of the recorded
+// steps: in the steps before, every surface stands back by its velocity, so that no step sees it jump. W §4.3-4.4.
+#import shared/map_planes
+
+// How long before the time of the maps a step begins and ends.
+struct Lag {
+    start: f32,     // [s]
+    end: f32,       // [s]
+}
+
+@group(0) @binding(1) var<uniform> lag: Lag;
+@group(0) @binding(9) var velocity_map: texture_2d_array<f32>;
+
+fn start_lag() -> f32 {
+    return lag.start;
+}
+
+fn end_lag() -> f32 {
+    return lag.end;
+}
+
+fn surface_velocity(texel: vec2<i32>, side: i32) -> vec3<f32> {
+    return textureLoad(velocity_map, texel, side, 0).xyz;
+}
+
+// How the surface near a point moves: where the point lies on it now, it will not lie in the maps.
+fn drift(next: vec3<f32>, velocity: vec3<f32>) -> vec3<f32> {
+    let column = column_under(next);
+    if !column.seen {
+        // A cloth that is carried along goes the way of its surface.
+        return velocity;
+    }
+    let texel = vec2<i32>(i32(floor(across_of(next) + 0.5)), i32(floor(down_of(next) + 0.5)));
+    if abs(next.z - column.front) <= abs(next.z - column.back) {
+        return surface_velocity(texel, FRONT);
+    }
+    return surface_velocity(texel, BACK);
+}
+
+@compute @workgroup_size(64)
+fn sample_moving_maps(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
+    let i = item_index(id, groups);
+    if i < step.particle_count + step.quad_count {
+        let point = point_at(i);
+        probes[i] = look(point.position, point.velocity);
+    }
+}
