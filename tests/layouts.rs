@@ -81,14 +81,22 @@ fn declaration(name: &str) -> (String, Vec<(String, String)>) {
     (text, fields)
 }
 
+/// How WGSL names the words of a type.
+fn parts_of(kind: &str) -> &'static [&'static str] {
+    match kind {
+        "vec3<f32>" => &[".x", ".y", ".z"],
+        "vec4<f32>" => &[".x", ".y", ".z", ".w"],
+        _ => &[""],
+    }
+}
+
 /// A kernel that reads an array of the struct and writes the words of its fields, one after the other.
 fn echo_source(name: &str) -> (String, Vec<(String, String)>) {
     let (declaration, fields) = declaration(name);
     let mut writes = String::new();
     let mut word = 0;
     for (field, kind) in &fields {
-        let parts: &[&str] = if kind == "vec3<f32>" { &[".x", ".y", ".z"] } else { &[""] };
-        for part in parts {
+        for part in parts_of(kind) {
             writeln!(writes, "    words[id.x * WORDS + {word}u] = bitcast<u32>(items[id.x].{field}{part});")
                 .expect("text");
             word += 1;
@@ -120,11 +128,10 @@ where
     let mut buffer = StorageBuffer::new(Vec::new());
     buffer.write(&values).expect("a vector grows");
     let (source, fields) = echo_source(name);
-    let kinds: Vec<&str> =
-        fields.iter().flat_map(|(_, kind)| vec![kind.as_str(); if kind == "vec3<f32>" { 3 } else { 1 }]).collect();
+    let kinds: Vec<&str> = fields.iter().flat_map(|(_, kind)| vec![kind.as_str(); parts_of(kind).len()]).collect();
     let device =
         Compute::new(gpu(), "echo", &source).run(gpu(), COUNT as u32, &[buffer.into_inner()], 4 * COUNT * kinds.len());
-    let text = format!("{values:?}").replace("Vec3", "");
+    let text = format!("{values:?}").replace("Vec3", "").replace("Vec4", "");
     let numbers: Vec<&str> =
         text.split(|c: char| !c.is_ascii_digit() && c != '.').filter(|word| !word.is_empty()).collect();
     let rust = numbers.iter().zip(kinds.iter().cycle()).map(|(number, kind)| match *kind {

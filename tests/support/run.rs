@@ -83,17 +83,32 @@ impl Compiled {
             .collect();
         let view =
             wgpu::TextureViewDescriptor { dimension: Some(wgpu::TextureViewDimension::D2Array), ..Default::default() };
-        let views = inputs.maps().map(|maps| [maps.depth().create_view(&view), maps.normals().create_view(&view)]);
+        let map = |name: &str| {
+            let maps = inputs.maps().expect("a kernel with textures looks into maps");
+            let texture = match name {
+                "depth_map" => maps.depth(),
+                "normal_map" => maps.normals(),
+                "velocity_map" => maps.velocities().expect("maps of moving bodies"),
+                other => panic!("the kernels name a texture {other} that the tests do not know"),
+            };
+            texture.create_view(&view)
+        };
+        let views: BTreeMap<&str, wgpu::TextureView> = self
+            .interface
+            .bindings
+            .iter()
+            .filter(|binding| matches!(binding.resource, Resource::DepthTexture | Resource::FloatTexture))
+            .map(|binding| (binding.name.as_str(), map(&binding.name)))
+            .collect();
         let entries: Vec<_> = self
             .interface
             .bindings
             .iter()
             .map(|binding| wgpu::BindGroupEntry {
                 binding: binding.number,
-                resource: match (binding.resource, &views) {
-                    (Resource::DepthTexture, Some([depth, _])) => wgpu::BindingResource::TextureView(depth),
-                    (Resource::FloatTexture, Some([_, normals])) => wgpu::BindingResource::TextureView(normals),
-                    _ => buffers[binding.name.as_str()].as_entire_binding(),
+                resource: match views.get(binding.name.as_str()) {
+                    Some(view) => wgpu::BindingResource::TextureView(view),
+                    None => buffers[binding.name.as_str()].as_entire_binding(),
                 },
             })
             .collect();

@@ -31,12 +31,12 @@ struct Column {
     seen: bool,
 }
 
-fn across_of(place: vec3<f32>) -> f32 {
-    return (place.x - map_frame.origin_x) / map_frame.texel - 0.5;
-}
-
-fn down_of(place: vec3<f32>) -> f32 {
-    return (map_frame.origin_y - place.y) / map_frame.texel - 0.5;
+// Place in the maps, in texels from their left and upper border.
+fn texels_of(place: vec3<f32>) -> vec2<f32> {
+    return vec2<f32>(
+        (place.x - map_frame.origin_x) / map_frame.texel,
+        (map_frame.origin_y - place.y) / map_frame.texel,
+    );
 }
 
 fn column_at(texel: vec2<i32>) -> Column {
@@ -48,10 +48,11 @@ fn column_at(texel: vec2<i32>) -> Column {
     return Column(front, back, depth_front < 1.0 && depth_back < 1.0);
 }
 
-// The texel nearest to a place, and nothing seen where that is outside of the maps.
+// The texel that holds a place, and nothing seen where that is outside of the maps.
 fn column_under(place: vec3<f32>) -> Column {
-    let column = floor(across_of(place) + 0.5);
-    let row = floor(down_of(place) + 0.5);
+    let texels = texels_of(place);
+    let column = floor(texels.x);
+    let row = floor(texels.y);
     if !(column >= 0.0 && column < f32(map_frame.columns) && row >= 0.0 && row < f32(map_frame.rows)) {
         return Column();
     }
@@ -139,8 +140,9 @@ fn look(point: vec3<f32>, velocity: vec3<f32>) -> Probe {
     let next = point + velocity * step.dt;
     let surface_drift = drift(next, velocity);
     let entry = entry_of(point + surface_drift * start_lag(), next + surface_drift * end_lag());
-    let across = across_of(entry.place);
-    let down = down_of(entry.place);
+    let texels = texels_of(entry.place);
+    let across = texels.x - 0.5;
+    let down = texels.y - 0.5;
     let left = floor(across);
     let top = floor(down);
     if !(left >= 0.0 && left + 1.0 < f32(map_frame.columns) && top >= 0.0 && top + 1.0 < f32(map_frame.rows)) {

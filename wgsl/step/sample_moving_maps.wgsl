@@ -30,7 +30,7 @@ fn drift(next: vec3<f32>, velocity: vec3<f32>) -> vec3<f32> {
         // A cloth that is carried along goes the way of its surface.
         return velocity;
     }
-    let texel = vec2<i32>(i32(floor(across_of(next) + 0.5)), i32(floor(down_of(next) + 0.5)));
+    let texel = vec2<i32>(floor(texels_of(next)));
     if abs(next.z - column.front) <= abs(next.z - column.back) {
         return surface_velocity(texel, FRONT);
     }

@@ -45,7 +45,7 @@ fn sample_sphere(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_work
     if met_length > 0.0 {
         let normal = met / met_length;
         let distance = dot(normal, from_centre) - ball.radius;
-        let surface_velocity = ball.velocity + cross(ball.spin, met);
+        let surface_velocity = (ball.velocity + ball.spin.yzx * met.zxy) - ball.spin.zxy * met.yzx;
         let approach = dot(point.velocity - surface_velocity, normal);
         let near = distance + approach * step.dt < step.contact_margin;
         if near && (!(nearest.hit > 0.0) || distance < nearest.distance) {

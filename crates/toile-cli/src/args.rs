@@ -18,6 +18,8 @@ pub struct Arguments {
 pub enum Command {
     /// Sew garments around a standing body and drape them; without arguments, the built-in dress on the built-in body.
     Dress(Dress),
+    /// Dress a body in the first pose of a clip and walk; without arguments, the built-in dress on the built-in body.
+    Walk(Walk),
     /// Run a scene file.
     Run(Run),
     /// Print the passes that a scene gets, with dispatches per step and bytes.
@@ -89,6 +91,26 @@ pub struct Dress {
     /// What is worn.
     #[command(flatten)]
     pub outfit: Outfit,
+    /// Where the results go, and what is said of the run.
+    #[command(flatten)]
+    pub running: Running,
+}
+
+/// `toile walk`.
+#[derive(Args, Debug)]
+pub struct Walk {
+    /// What is worn; the body is an animated glTF or GLB.
+    #[command(flatten)]
+    pub outfit: Outfit,
+    /// Length of the walk [s]; without it, that of the clip.
+    #[arg(long, value_name = "SECONDS", value_parser = parse_time)]
+    pub seconds: Option<f64>,
+    /// Frames per second.
+    #[arg(long, value_name = "RATE", default_value = "30", value_parser = parse_rate)]
+    pub fps: f64,
+    /// Go on with an interrupted walk in the same folder, with the same options.
+    #[arg(long)]
+    pub resume: bool,
     /// Where the results go, and what is said of the run.
     #[command(flatten)]
     pub running: Running,
@@ -201,6 +223,13 @@ fn parse_time(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
         _ => Err("it is not a time; write seconds, such as 0.5".to_owned()),
+    }
+}
+
+fn parse_rate(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (1.0..=1000.0).contains(&value) => Ok(value),
+        _ => Err("it must be 1 to 1000 frames per second".to_owned()),
     }
 }
 

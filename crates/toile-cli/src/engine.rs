@@ -82,7 +82,7 @@ impl Computer {
             Computer::Reference => {
                 let surfaces: Vec<_> = layers
                     .iter()
-                    .map(|layer| reference_maps::Surface { mesh: &layer.mesh, thickness: layer.thickness })
+                    .map(|layer| reference_maps::Surface { mesh: &layer.mesh, thickness: layer.thickness, velocities: None })
                     .collect();
                 let maps = (!surfaces.is_empty()).then(|| render_maps(&surfaces, texel));
                 let colliders = toile_reference::Colliders { maps, sphere };
@@ -98,11 +98,12 @@ fn draw_maps(gpu: &Gpu, layers: &[Layer], texel: f32) -> Result<BodyMaps> {
         .filter_map(|layer| layer.mesh.bounds().map(|[low, high]| [low - layer.thickness, high + layer.thickness]))
         .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
         .unwrap_or_default();
-    let maps = BodyMaps::new(&gpu.device, MapFrame::around(bounds, texel))?;
+    let frame = MapFrame::around(bounds, texel);
+    let maps = BodyMaps::new(&gpu.device, frame, false)?;
     let surfaces: Vec<_> = layers.iter().map(|l| (Surface::new(&gpu.device, &l.mesh), l.thickness)).collect();
     let drawn: Vec<_> = surfaces.iter().map(|(surface, thickness)| (surface, *thickness)).collect();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    maps.record(&gpu.device, &mut encoder, &drawn);
+    maps.record(&gpu.device, &mut encoder, frame, &drawn);
     gpu.queue.submit([encoder.finish()]);
     Ok(maps)
 }

@@ -12,6 +12,7 @@ mod picture;
 mod progress;
 mod simulate;
 mod sphere_mesh;
+mod walk;
 mod worn;
 
 use clap::Parser;

@@ -4,7 +4,7 @@ mod contact;
 mod measures;
 
 pub use contact::Surfaces;
-pub use measures::Measures;
+pub use measures::{Measures, max_and_p99};
 
 use serde::Serialize;
 

@@ -13,7 +13,7 @@ mod soup;
 #[cfg(test)]
 mod tests;
 
-pub use file::{save_png, strip};
+pub use file::{save_gif, save_png, strip};
 
 use camera::Camera;
 use image::RgbImage;

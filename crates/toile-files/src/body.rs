@@ -65,7 +65,7 @@ fn read(bytes: &[u8], name: &Path, folder: Option<&Path>, options: &BodyOptions)
     let soup = match ending.to_ascii_lowercase().as_str() {
         "obj" => obj::read(bytes)?,
         "ply" => ply::read(bytes)?,
-        "gltf" | "glb" => gltf_body::read(bytes, folder, options, &mut warnings)?,
+        "gltf" | "glb" => gltf_body::read(bytes, folder, options.clip.as_deref(), options.time)?.soup,
         _ => return Err(Fault::UnknownFormat(ENDINGS).into()),
     };
     let mesh = soup.clean(options.metres_per_unit, &mut warnings)?;
@@ -73,7 +73,7 @@ fn read(bytes: &[u8], name: &Path, folder: Option<&Path>, options: &BodyOptions)
     Ok(BodyFile { mesh, warnings })
 }
 
-fn check_height(mesh: &Mesh, metres_per_unit: f64) -> Result<(), Found> {
+pub(crate) fn check_height(mesh: &Mesh, metres_per_unit: f64) -> Result<(), Found> {
     let [low, high] = mesh.bounds().expect("a clean mesh has vertices");
     let height = f64::from(high.y) - f64::from(low.y);
     let plausible = |height: f64| (HEIGHTS[0]..=HEIGHTS[1]).contains(&height);

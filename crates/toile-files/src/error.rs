@@ -15,6 +15,13 @@ pub struct FileError {
     pub fault: Box<Fault>,
 }
 
+impl FileError {
+    /// A file that was written by this program and cannot be read any more.
+    pub fn unreadable(path: &std::path::Path) -> Self {
+        Found::from(Fault::Unreadable(std::io::Error::from(std::io::ErrorKind::InvalidData))).in_file(path)
+    }
+}
+
 /// A place in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Place {

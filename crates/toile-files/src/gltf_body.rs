@@ -1,43 +1,84 @@
 //! The surface of a posed glTF file: every mesh of the scene, skinned meshes bent by their joints.
 
-use crate::body::BodyOptions;
 use crate::error::{Fault, Found, Place};
 use crate::gltf_file::GltfFile;
-use crate::gltf_pose::world_transforms;
+use crate::gltf_pose::Skeleton;
 use crate::soup::Soup;
 use glam::{DMat4, DVec3, Mat4, Vec3};
 use gltf::Semantic;
 use gltf::accessor::Dimensions;
 use gltf::mesh::Mode;
 use std::path::Path;
+use toile_scene::{Displacement, Influence, Rig};
 
 /// No body has more vertices or triangles. Nodes can repeat a mesh, so a small file can ask for any number.
 const MOST: usize = 1 << 23;
 
-/// Reads the surface at the clip and time of the options. Positions stay in the file's unit.
-pub(crate) fn read(
-    bytes: &[u8],
-    folder: Option<&Path>,
-    options: &BodyOptions,
-    warnings: &mut Vec<String>,
-) -> Result<Soup, Found> {
+/// The surface of a file at one time, and how its vertices hang on the joints.
+pub(crate) struct Posed {
+    /// The surface in the file's unit.
+    pub soup: Soup,
+    /// Of each vertex of the soup.
+    pub bindings: Vec<Binding>,
+    /// The joints, in the file's unit.
+    pub rig: Rig,
+}
+
+/// How a vertex hangs on the joints.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Binding {
+    pub position: Vec3,
+    pub influences: Vec<Influence>,
+    pub displacements: Vec<Displacement>,
+    /// From bind space to the world, at the time of the surface.
+    pub matrix: DMat4,
+}
+
+/// Reads the surface at a clip and time. Positions stay in the file's unit.
+pub(crate) fn read(bytes: &[u8], folder: Option<&Path>, clip: Option<&str>, time: f64) -> Result<Posed, Found> {
     let file = GltfFile::open(bytes, folder)?;
-    let world = world_transforms(&file, options.clip.as_deref(), options.time)?;
-    let mut soup = Soup::default();
-    let mut morphs = 0;
+    let mut skeleton = Skeleton::read(&file, clip)?;
+    skeleton.check(time)?;
+    let mut unposed = Vec::new();
     for node in scene_nodes(&file.document) {
         let Some(mesh) = node.mesh() else { continue };
-        let joints = node.skin().map(|skin| joint_matrices(&file, &skin, &world)).transpose()?;
+        let joints = match node.skin() {
+            Some(skin) => add_skin(&file, &skin, &mut skeleton)?,
+            // The node's own transform counts for a mesh without skin only.
+            None => vec![skeleton.add_joint(&node, DMat4::IDENTITY)],
+        };
+        let skinned = node.skin().is_some();
+        let targets = mesh.primitives().map(|primitive| primitive.morph_targets().count()).max().unwrap_or(0);
+        let first_target = skeleton.rig.morph_weights.len() as u32;
+        let weights = node.weights().or(mesh.weights()).unwrap_or_default();
+        let weight = |target: usize| weights.get(target).copied().map_or(0.0, f64::from);
+        skeleton.rig.morph_weights.extend((0..targets).map(weight));
+        if let (Some(clip), true) = (clip, targets > 0) {
+            skeleton.read_morph_tracks(&file, clip, &node, first_target, targets)?;
+        }
         for primitive in mesh.primitives() {
-            morphs += primitive.morph_targets().count();
-            let placed = Placed { world: world[node.index()], joints: joints.as_deref() };
-            add_primitive(&file, &primitive, &placed, &mut soup)?;
+            unposed.push((primitive, joints.clone(), skinned, first_target));
         }
     }
-    if morphs > 0 {
-        warnings.push(format!("morph targets not used: {morphs}"));
+    let pose = skeleton.rig.pose(time);
+    let matrices: Vec<DMat4> = pose_matrices(&skeleton.rig, time);
+    let mut posed = Posed { soup: Soup::default(), bindings: Vec::new(), rig: skeleton.rig };
+    for (primitive, joints, skinned, first_target) in unposed {
+        add_primitive(&file, &primitive, &joints, skinned, first_target, &matrices, &pose.morph_weights, &mut posed)?;
     }
-    Ok(soup)
+    Ok(posed)
+}
+
+/// From bind space to the world for each joint, in f64.
+fn pose_matrices(rig: &Rig, time: f64) -> Vec<DMat4> {
+    let worlds = rig.worlds(time);
+    rig.joints.iter().map(|joint| worlds[joint.node as usize] * joint.inverse_bind).collect()
+}
+
+/// Names of the clips of a file, in its order.
+pub(crate) fn clip_names(bytes: &[u8], folder: Option<&Path>) -> Result<Vec<String>, Found> {
+    let file = GltfFile::open(bytes, folder)?;
+    Ok(file.document.animations().filter_map(|animation| animation.name()).map(String::from).collect())
 }
 
 /// The nodes of the default scene, else of the first one, else of the file; parents first.
@@ -57,33 +98,33 @@ fn scene_nodes(document: &gltf::Document) -> Vec<gltf::Node<'_>> {
     nodes
 }
 
-/// For each joint the matrix from the bind pose of the mesh to the world.
-fn joint_matrices(file: &GltfFile, skin: &gltf::Skin<'_>, world: &[DMat4]) -> Result<Vec<DMat4>, Found> {
-    let joints: Vec<usize> = skin.joints().map(|joint| joint.index()).collect();
+/// Adds the joints of a skin and gives their indices.
+fn add_skin(file: &GltfFile, skin: &gltf::Skin<'_>, skeleton: &mut Skeleton) -> Result<Vec<u32>, Found> {
+    let nodes: Vec<gltf::Node<'_>> = skin.joints().collect();
     let Some(accessor) = skin.inverse_bind_matrices() else {
-        return Ok(joints.iter().map(|joint| world[*joint]).collect());
+        return Ok(nodes.iter().map(|node| skeleton.add_joint(node, DMat4::IDENTITY)).collect());
     };
     let inverse_bind = file.read::<16>(&accessor, Dimensions::Mat4)?;
-    if inverse_bind.len() < joints.len() {
-        let message = format!("{} matrices for {} joints", inverse_bind.len(), joints.len());
+    if inverse_bind.len() < nodes.len() {
+        let message = format!("{} matrices for {} joints", inverse_bind.len(), nodes.len());
         return Err(Found::malformed(Place::Accessor(accessor.index()), message));
     }
-    let matrix = |(joint, bind): (&usize, &[f32; 16])| world[*joint] * Mat4::from_cols_array(bind).as_dmat4();
-    Ok(joints.iter().zip(&inverse_bind).map(matrix).collect())
+    let joint = |(node, bind): (&gltf::Node<'_>, &[f32; 16])| {
+        skeleton.add_joint(node, Mat4::from_cols_array(bind).as_dmat4())
+    };
+    Ok(nodes.iter().zip(&inverse_bind).map(joint).collect())
 }
 
-/// How a mesh stands in the world.
-struct Placed<'a> {
-    world: DMat4,
-    /// The node's own transform does not count for a skinned mesh.
-    joints: Option<&'a [DMat4]>,
-}
-
+#[expect(clippy::too_many_arguments, reason = "what a primitive is read with comes from its node, its skin and its mesh")]
 fn add_primitive(
     file: &GltfFile,
     primitive: &gltf::Primitive<'_>,
-    placed: &Placed<'_>,
-    soup: &mut Soup,
+    joints: &[u32],
+    skinned: bool,
+    first_target: u32,
+    matrices: &[DMat4],
+    morph_weights: &[f32],
+    posed: &mut Posed,
 ) -> Result<(), Found> {
     if !matches!(primitive.mode(), Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
         return Ok(());
@@ -92,25 +133,62 @@ fn add_primitive(
         return Ok(());
     };
     let positions = file.read::<3>(&accessor, Dimensions::Vec3)?;
+    let soup = &mut posed.soup;
     let first = soup.positions.len();
     check_most("vertices", first + positions.len())?;
-    let matrices = match placed.joints {
-        Some(joints) => Some(skin_matrices(file, primitive, joints, positions.len())?),
-        None => None,
+    let influences = if skinned {
+        skin_influences(file, primitive, joints, positions.len())?
+    } else {
+        vec![vec![Influence { joint: joints[0], weight: 1.0 }]; positions.len()]
     };
-    let matrix = |vertex: usize| matrices.as_ref().map_or(placed.world, |matrices| matrices[vertex]);
+    let displacements = read_displacements(file, primitive, first_target, positions.len())?;
     let place = || Place::Accessor(accessor.index());
-    for (vertex, position) in positions.iter().enumerate() {
-        let position = matrix(vertex).transform_point3(Vec3::from(*position).as_dvec3());
-        soup.push_vertex(position, place)?;
+    for ((position, influences), displacements) in positions.iter().zip(influences).zip(displacements) {
+        let mut matrix = DMat4::ZERO;
+        for influence in &influences {
+            matrix += matrices[influence.joint as usize] * f64::from(influence.weight);
+        }
+        let position = Vec3::from(*position);
+        let shift = |d: &Displacement| d.position.as_dvec3() * f64::from(morph_weights[d.target as usize]);
+        let morphed = position.as_dvec3() + displacements.iter().map(shift).sum::<DVec3>();
+        soup.push_vertex(matrix.transform_point3(morphed), place)?;
+        posed.bindings.push(Binding { position, influences, displacements, matrix });
     }
     if let Some(accessor) = primitive.get(&Semantic::Normals) {
         let normals = file.read::<3>(&accessor, Dimensions::Vec3)?;
         for (vertex, normal) in normals.iter().enumerate().take(positions.len()) {
-            soup.normals[first + vertex] = turned(matrix(vertex), Vec3::from(*normal).as_dvec3());
+            let binding = &posed.bindings[first + vertex];
+            let shift = |d: &Displacement| d.normal.as_dvec3() * f64::from(morph_weights[d.target as usize]);
+            let morphed = Vec3::from(*normal).as_dvec3() + binding.displacements.iter().map(shift).sum::<DVec3>();
+            soup.normals[first + vertex] = turned(binding.matrix, morphed);
         }
     }
     add_triangles(file, primitive, positions.len(), soup)
+}
+
+/// What the morph targets of a primitive do to each vertex.
+fn read_displacements(
+    file: &GltfFile,
+    primitive: &gltf::Primitive<'_>,
+    first_target: u32,
+    vertex_count: usize,
+) -> Result<Vec<Vec<Displacement>>, Found> {
+    let mut displacements = vec![Vec::new(); vertex_count];
+    for (morph, target) in primitive.morph_targets().zip(first_target..) {
+        let read = |accessor: Option<gltf::Accessor<'_>>| match accessor {
+            Some(accessor) => file.read::<3>(&accessor, Dimensions::Vec3),
+            None => Ok(Vec::new()),
+        };
+        let [positions, normals] = [read(morph.positions())?, read(morph.normals())?];
+        for (vertex, displacements) in displacements.iter_mut().enumerate() {
+            let at = |values: &[[f32; 3]]| values.get(vertex).copied().map_or(Vec3::ZERO, Vec3::from);
+            let (position, normal) = (at(&positions), at(&normals));
+            if position != Vec3::ZERO || normal != Vec3::ZERO {
+                displacements.push(Displacement { target, position, normal });
+            }
+        }
+    }
+    Ok(displacements)
 }
 
 /// A normal under a linear map that need not keep angles. The cofactors stand for the inverse transpose, which a flattened
@@ -121,14 +199,14 @@ fn turned(matrix: DMat4, normal: DVec3) -> DVec3 {
     turned.normalize_or_zero()
 }
 
-/// For each vertex the mean of its joints' matrices by weight.
-fn skin_matrices(
+/// For each vertex its joints and their shares.
+fn skin_influences(
     file: &GltfFile,
     primitive: &gltf::Primitive<'_>,
-    joints: &[DMat4],
+    joints: &[u32],
     vertex_count: usize,
-) -> Result<Vec<DMat4>, Found> {
-    let mut sums = vec![(DMat4::ZERO, 0.0); vertex_count];
+) -> Result<Vec<Vec<Influence>>, Found> {
+    let mut influences: Vec<Vec<Influence>> = vec![Vec::new(); vertex_count];
     let mut place = Place::File;
     for set in 0.. {
         let (Some(indices), Some(weights)) =
@@ -140,22 +218,25 @@ fn skin_matrices(
         let joint_place = Place::Accessor(indices.index());
         let indices = file.read_indices::<4>(&indices, Dimensions::Vec4)?;
         let weights = file.read::<4>(&weights, Dimensions::Vec4)?;
-        for (sum, (indices, weights)) in sums.iter_mut().zip(indices.iter().zip(&weights)) {
+        for (influences, (indices, weights)) in influences.iter_mut().zip(indices.iter().zip(&weights)) {
             for (index, weight) in indices.iter().zip(weights).filter(|(_, weight)| **weight != 0.0) {
                 let Some(joint) = joints.get(*index as usize) else {
                     let (index, count) = (i64::from(*index), joints.len());
                     let fault = Fault::OutOfRange { what: "joint", index, count };
                     return Err(Found::at(joint_place, fault));
                 };
-                sum.0 += *joint * f64::from(*weight);
-                sum.1 += f64::from(*weight);
+                influences.push(Influence { joint: *joint, weight: *weight });
             }
         }
     }
-    if let Some(vertex) = sums.iter().position(|(_, weight)| !(*weight > 0.0 && weight.is_finite())) {
-        return Err(Found::malformed(place, format!("vertex {vertex} hangs on no joint")));
+    for (vertex, influences) in influences.iter_mut().enumerate() {
+        let sum: f64 = influences.iter().map(|influence| f64::from(influence.weight)).sum();
+        if !(sum > 0.0 && sum.is_finite()) {
+            return Err(Found::malformed(place, format!("vertex {vertex} hangs on no joint")));
+        }
+        influences.iter_mut().for_each(|influence| influence.weight = (f64::from(influence.weight) / sum) as f32);
     }
-    Ok(sums.into_iter().map(|(matrix, weight)| matrix * weight.recip()).collect())
+    Ok(influences)
 }
 
 fn add_triangles(

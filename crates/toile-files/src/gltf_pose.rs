@@ -1,159 +1,187 @@
-//! Where the nodes of a glTF file stand: at rest, or at a time of a clip.
+//! The nodes of a glTF file and how a clip moves them.
 
 use crate::error::{Fault, Found, Place};
 use crate::gltf_file::GltfFile;
-use glam::{DMat4, DQuat, DVec3, DVec4, Mat4, Quat, Vec3};
+use glam::{DMat4, DQuat, Mat4, Quat, Vec3};
 use gltf::accessor::Dimensions;
-use gltf::animation::{Interpolation, Property};
+use toile_scene::{Interpolation, Joint, Keys, Node, Property, Rig, Track, Transform};
 
-/// World transform of every node, at a time [s] of a clip or as the nodes stand.
-pub(crate) fn world_transforms(file: &GltfFile, clip: Option<&str>, time: f64) -> Result<Vec<DMat4>, Found> {
-    let mut local: Vec<Local> = file.document.nodes().map(|node| Local::of(&node)).collect();
-    if let Some(clip) = clip {
-        pose(file, clip, time, &mut local)?;
-    }
-    let mut parents = vec![None; local.len()];
-    for node in file.document.nodes() {
-        for child in node.children() {
-            parents[child.index()] = Some(node.index());
-        }
-    }
-    worlds(&local, &parents)
+/// Nodes and tracks of a file, in the unit of the file; joints and morph targets are added by whoever finds them.
+pub(crate) struct Skeleton {
+    pub rig: Rig,
+    /// Index in the rig of each node of the file.
+    pub index_of: Vec<u32>,
 }
 
-/// Transforms multiplied down from the roots, each once.
-fn worlds(local: &[Local], parents: &[Option<usize>]) -> Result<Vec<DMat4>, Found> {
-    let mut world: Vec<Option<DMat4>> = vec![None; local.len()];
-    for node in 0..local.len() {
+impl Skeleton {
+    /// The nodes as they stand, and the tracks of a clip; the first clip when `clip` is `None` and `moving`.
+    pub fn read(file: &GltfFile, clip: Option<&str>) -> Result<Self, Found> {
+        let mut parents = vec![None; file.document.nodes().count()];
+        for node in file.document.nodes() {
+            for child in node.children() {
+                parents[child.index()] = Some(node.index());
+            }
+        }
+        let order = parents_first(&parents)?;
+        let mut index_of = vec![0; parents.len()];
+        order.iter().zip(0..).for_each(|(node, index)| index_of[*node] = index);
+        let locals: Vec<Transform> = file.document.nodes().map(|node| local_of(&node)).collect();
+        let nodes = order
+            .iter()
+            .map(|node| Node { parent: parents[*node].map(|parent| index_of[parent]), local: locals[*node] })
+            .collect();
+        let rig = Rig {
+            nodes,
+            joints: Vec::new(),
+            tracks: Vec::new(),
+            morph_weights: Vec::new(),
+            duration: 0.0,
+            metres_per_unit: 1.0,
+        };
+        let mut skeleton = Self { rig, index_of };
+        if let Some(clip) = clip {
+            skeleton.read_clip(file, clip)?;
+        }
+        Ok(skeleton)
+    }
+
+    /// Adds a joint that stands where a node of the file does, and gives its index.
+    pub fn add_joint(&mut self, node: &gltf::Node<'_>, inverse_bind: DMat4) -> u32 {
+        let name = node.name().unwrap_or_default().to_owned();
+        self.rig.joints.push(Joint { name, node: self.index_of[node.index()], inverse_bind });
+        self.rig.joints.len() as u32 - 1
+    }
+
+    /// Refuses transforms that are not finite at a time [s].
+    pub fn check(&self, time: f64) -> Result<(), Found> {
+        let worlds = self.rig.worlds(time);
+        let fault = |node: usize| worlds[self.index_of[node] as usize].is_finite();
+        match (0..self.index_of.len()).find(|node| !fault(*node)) {
+            None => Ok(()),
+            Some(node) => Err(Found::at(Place::Node(node), Fault::NotFinite("the transform of the node".into()))),
+        }
+    }
+
+    fn read_clip(&mut self, file: &GltfFile, clip: &str) -> Result<(), Found> {
+        let Some(animation) = file.document.animations().find(|animation| animation.name() == Some(clip)) else {
+            let names = file.document.animations().filter_map(|animation| animation.name());
+            let known = names.map(String::from).collect();
+            return Err(Fault::Unknown { what: "clip", name: clip.into(), known }.into());
+        };
+        for channel in animation.channels() {
+            let target = channel.target();
+            let node = self.index_of[target.node().index()];
+            let property = match target.property() {
+                gltf::animation::Property::Translation => Property::Translation,
+                gltf::animation::Property::Scale => Property::Scale,
+                gltf::animation::Property::Rotation => Property::Rotation,
+                // They belong to the mesh of the node, which is read with them.
+                gltf::animation::Property::MorphTargetWeights => continue,
+            };
+            if matches!(self.rig.nodes[node as usize].local, Transform::Matrix(_)) {
+                let message = "the clip moves a node that has a matrix instead of a translation and rotation";
+                return Err(Found::malformed(Place::Node(target.node().index()), message));
+            }
+            let width = if property == Property::Rotation { 4 } else { 3 };
+            let keys = read_keys(file, &channel.sampler(), width)?;
+            self.add_track(Track { node, property, keys });
+        }
+        Ok(())
+    }
+
+    /// The tracks by which a clip moves the weights of the morph targets of a node, `width` of them, which begin at `first`.
+    pub fn read_morph_tracks(
+        &mut self,
+        file: &GltfFile,
+        clip: &str,
+        node: &gltf::Node<'_>,
+        first: u32,
+        width: usize,
+    ) -> Result<(), Found> {
+        let animations = file.document.animations().filter(|animation| animation.name() == Some(clip)).take(1);
+        for channel in animations.flat_map(|animation| animation.channels().collect::<Vec<_>>()) {
+            let target = channel.target();
+            if target.node().index() == node.index()
+                && target.property() == gltf::animation::Property::MorphTargetWeights
+            {
+                let keys = read_keys(file, &channel.sampler(), width)?;
+                self.add_track(Track {
+                    node: self.index_of[node.index()],
+                    property: Property::MorphWeights(first),
+                    keys,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn add_track(&mut self, track: Track) {
+        let end = *track.keys.times.last().expect("keys were checked");
+        self.rig.duration = self.rig.duration.max(end);
+        self.rig.tracks.push(track);
+    }
+}
+
+/// The nodes so that each comes after its parent.
+fn parents_first(parents: &[Option<usize>]) -> Result<Vec<usize>, Found> {
+    let mut placed = vec![false; parents.len()];
+    let mut order = Vec::with_capacity(parents.len());
+    for node in 0..parents.len() {
         let mut path = Vec::new();
         let mut next = Some(node);
-        while let Some(open) = next.filter(|open| world[*open].is_none()) {
-            if path.len() == local.len() {
+        while let Some(open) = next.filter(|open| !placed[*open]) {
+            if path.len() == parents.len() {
                 return Err(Found::malformed(Place::Node(node), "the node is its own ancestor"));
             }
             path.push(open);
             next = parents[open];
         }
-        let mut matrix = next.and_then(|known| world[known]).unwrap_or(DMat4::IDENTITY);
         for open in path.into_iter().rev() {
-            matrix *= local[open].matrix();
-            if !matrix.is_finite() {
-                let fault = Fault::NotFinite("the transform of the node".into());
-                return Err(Found::at(Place::Node(open), fault));
-            }
-            world[open] = Some(matrix);
+            placed[open] = true;
+            order.push(open);
         }
     }
-    Ok(world.into_iter().flatten().collect())
+    Ok(order)
 }
 
-/// Transform of a node relative to its parent.
-#[derive(Clone, Copy)]
-enum Local {
-    Matrix(DMat4),
-    Parts { translation: DVec3, rotation: DQuat, scale: DVec3 },
-}
-
-impl Local {
-    fn of(node: &gltf::Node<'_>) -> Self {
-        match node.transform() {
-            gltf::scene::Transform::Matrix { matrix } => Self::Matrix(Mat4::from_cols_array_2d(&matrix).as_dmat4()),
-            gltf::scene::Transform::Decomposed { translation, rotation, scale } => Self::Parts {
-                translation: Vec3::from(translation).as_dvec3(),
-                rotation: Quat::from_array(rotation).as_dquat(),
-                scale: Vec3::from(scale).as_dvec3(),
-            },
-        }
-    }
-
-    fn matrix(self) -> DMat4 {
-        match self {
-            Self::Matrix(matrix) => matrix,
-            Self::Parts { translation, rotation, scale } => {
-                // A zero quaternion would turn into NaN and hide which node is at fault.
-                let rotation = DQuat::from_vec4(DVec4::from(rotation).normalize_or(DVec4::W));
-                DMat4::from_scale_rotation_translation(scale, rotation, translation)
-            }
-        }
+fn local_of(node: &gltf::Node<'_>) -> Transform {
+    match node.transform() {
+        gltf::scene::Transform::Matrix { matrix } => Transform::Matrix(Mat4::from_cols_array_2d(&matrix).as_dmat4()),
+        gltf::scene::Transform::Decomposed { translation, rotation, scale } => Transform::Parts {
+            translation: Vec3::from(translation).as_dvec3(),
+            rotation: DQuat::from(Quat::from_array(rotation).as_dquat()),
+            scale: Vec3::from(scale).as_dvec3(),
+        },
     }
 }
 
-fn pose(file: &GltfFile, clip: &str, time: f64, local: &mut [Local]) -> Result<(), Found> {
-    let Some(animation) = file.document.animations().find(|animation| animation.name() == Some(clip)) else {
-        let names = file.document.animations().filter_map(|animation| animation.name());
-        let known = names.map(String::from).collect();
-        return Err(Fault::Unknown { what: "clip", name: clip.into(), known }.into());
-    };
-    for channel in animation.channels() {
-        let target = channel.target();
-        let Local::Parts { translation, rotation, scale } = &mut local[target.node().index()] else {
-            let message = "the clip moves a node that has a matrix instead of a translation and rotation";
-            return Err(Found::malformed(Place::Node(target.node().index()), message));
-        };
-        let sampler = channel.sampler();
-        match target.property() {
-            Property::Translation => *translation = DVec3::from(sample(file, &sampler, time, lerp)?),
-            Property::Scale => *scale = DVec3::from(sample(file, &sampler, time, lerp)?),
-            Property::Rotation => *rotation = DQuat::from_array(sample(file, &sampler, time, slerp)?),
-            // Weights of morph targets, which are not read.
-            Property::MorphTargetWeights => {}
-        }
-    }
-    Ok(())
-}
-
-/// Value of a channel at a time [s]; it stands still before the first and after the last key.
-fn sample<const N: usize>(
-    file: &GltfFile,
-    sampler: &gltf::animation::Sampler<'_>,
-    time: f64,
-    between: fn([f64; N], [f64; N], f64) -> [f64; N],
-) -> Result<[f64; N], Found> {
-    let dimensions = if N == 4 { Dimensions::Vec4 } else { Dimensions::Vec3 };
+/// The keys of a channel with `width` values each.
+fn read_keys(file: &GltfFile, sampler: &gltf::animation::Sampler<'_>, width: usize) -> Result<Keys, Found> {
     let times = file.read::<1>(&sampler.input(), Dimensions::Scalar)?;
-    let values = file.read::<N>(&sampler.output(), dimensions)?;
-    let cubic = sampler.interpolation() == Interpolation::CubicSpline;
-    let per_key = if cubic { 3 } else { 1 };
-    if times.is_empty() || values.len() != times.len() * per_key {
-        let message = format!("{} values do not fit {} keys", values.len(), times.len());
-        return Err(Found::malformed(Place::Accessor(sampler.output().index()), message));
-    }
-    let key_time = |key: usize| f64::from(times[key][0]);
-    let value = |key: usize, part: usize| values[key * per_key + part].map(f64::from);
-    // A cubic key is in-tangent, value, out-tangent.
-    let middle = usize::from(cubic);
-    let next = times.partition_point(|key| f64::from(key[0]) <= time);
-    if next == 0 {
-        return Ok(value(0, middle));
-    }
-    let last = next - 1;
-    if next == times.len() {
-        return Ok(value(last, middle));
-    }
-    let span = key_time(next) - key_time(last);
-    let t = (time - key_time(last)) / span;
-    Ok(match sampler.interpolation() {
-        Interpolation::Step => value(last, 0),
-        Interpolation::Linear => between(value(last, 0), value(next, 0), t),
-        Interpolation::CubicSpline => {
-            let [a, b] = [value(last, 1), value(next, 1)];
-            let [leaving, arriving] = [value(last, 2), value(next, 0)];
-            let (t2, t3) = (t * t, t * t * t);
-            std::array::from_fn(|i| {
-                (2.0 * t3 - 3.0 * t2 + 1.0) * a[i]
-                    + span * (t3 - 2.0 * t2 + t) * leaving[i]
-                    + (3.0 * t2 - 2.0 * t3) * b[i]
-                    + span * (t3 - t2) * arriving[i]
-            })
+    let output = sampler.output();
+    let values: Vec<f64> = match output.dimensions() {
+        Dimensions::Scalar => file.read::<1>(&output, Dimensions::Scalar)?.iter().flatten().map(|v| f64::from(*v)).collect(),
+        Dimensions::Vec4 if width == 4 => {
+            file.read::<4>(&output, Dimensions::Vec4)?.iter().flatten().map(|v| f64::from(*v)).collect()
         }
-    })
-}
-
-fn lerp(a: [f64; 3], b: [f64; 3], t: f64) -> [f64; 3] {
-    DVec3::from(a).lerp(DVec3::from(b), t).to_array()
-}
-
-fn slerp(a: [f64; 4], b: [f64; 4], t: f64) -> [f64; 4] {
-    let unit = |q: [f64; 4]| DQuat::from_vec4(DVec4::from(q).normalize_or(DVec4::W));
-    unit(a).slerp(unit(b), t).to_array()
+        _ => file.read::<3>(&output, Dimensions::Vec3)?.iter().flatten().map(|v| f64::from(*v)).collect(),
+    };
+    let (interpolation, parts) = match sampler.interpolation() {
+        gltf::animation::Interpolation::Step => (Interpolation::Step, 1),
+        gltf::animation::Interpolation::Linear => (Interpolation::Linear, 1),
+        gltf::animation::Interpolation::CubicSpline => (Interpolation::Cubic, 3),
+    };
+    let place = || Place::Accessor(output.index());
+    if times.is_empty() || values.len() != times.len() * parts * width {
+        let message = format!("{} values do not fit {} keys", values.len(), times.len());
+        return Err(Found::malformed(place(), message));
+    }
+    let times: Vec<f64> = times.iter().map(|[time]| f64::from(*time)).collect();
+    if !times.is_sorted() {
+        return Err(Found::malformed(Place::Accessor(sampler.input().index()), "the times of the keys do not ascend"));
+    }
+    if !values.iter().chain(&times).all(|value| value.is_finite()) {
+        return Err(Found::at(place(), Fault::NotFinite("a value of the clip".into())));
+    }
+    Ok(Keys { times, values, width, interpolation })
 }

@@ -204,9 +204,14 @@ fn convert_body(toml: BodyToml, folder: &Path, warnings: &mut Vec<String>) -> Re
 
 fn convert_sphere(index: usize, toml: &SphereToml) -> Result<Sphere, Found> {
     let key = |name: &str| format!("sphere.{index}.{name}");
-    let motion = match &toml.swing {
-        None => SphereMotion::Still,
-        Some(swing) => SphereMotion::Swing {
+    let motion = match (&toml.swing, &toml.steady) {
+        (Some(_), Some(_)) => return Err(wrong(&key("steady"), "a sphere swings or goes steadily, not both")),
+        (None, None) => SphereMotion::Still,
+        (None, Some(steady)) => SphereMotion::Steady {
+            velocity: vector(&key("steady.velocity"), steady.velocity.unwrap_or_default())?,
+            spin: vector(&key("steady.spin"), steady.spin.unwrap_or_default())?,
+        },
+        (Some(swing), None) => SphereMotion::Swing {
             amplitude: vector(&key("swing.amplitude"), swing.amplitude)?,
             period: positive(&key("swing.period"), swing.period)?,
         },

@@ -153,6 +153,14 @@ pub(crate) struct SphereToml {
     pub centre: [f64; 3],
     pub radius: f64,
     pub swing: Option<SwingToml>,
+    pub steady: Option<SteadyToml>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SteadyToml {
+    pub velocity: Option<[f64; 3]>,
+    pub spin: Option<[f64; 3]>,
 }
 
 #[derive(Deserialize)]

@@ -54,13 +54,22 @@ impl Soup {
     /// Scales to metres, welds equal positions, drops what has no area, turns the outside out, and gives every vertex a
     /// normal. What had to be mended is added to the warnings.
     pub fn clean(self, metres_per_unit: f64, warnings: &mut Vec<String>) -> Result<Mesh, Found> {
+        self.clean_with_origins(metres_per_unit, warnings).map(|(mesh, _)| mesh)
+    }
+
+    /// As [`Soup::clean`], and for each vertex of the mesh the first vertex of the soup that stands there.
+    pub fn clean_with_origins(
+        self,
+        metres_per_unit: f64,
+        warnings: &mut Vec<String>,
+    ) -> Result<(Mesh, Vec<u32>), Found> {
         let mut warn = |count: usize, what: &str| {
             if count > 0 {
                 warnings.push(format!("{what}: {count}"));
             }
         };
         let file_vertex_count = self.positions.len();
-        let (mut positions, mut normals, remap) = self.welded(metres_per_unit)?;
+        let (mut positions, mut normals, remap, mut origins) = self.welded(metres_per_unit)?;
         let mut triangles: Vec<[u32; 3]> = self.triangles.iter().map(|t| t.map(|i| remap[i as usize])).collect();
 
         let before = triangles.len();
@@ -72,7 +81,7 @@ impl Soup {
         if triangles.is_empty() {
             return Err(Fault::Empty(file_vertex_count).into());
         }
-        let isolated = remove_isolated(&mut positions, &mut normals, &mut triangles);
+        let isolated = remove_isolated(&mut positions, &mut normals, &mut origins, &mut triangles);
         warn(isolated, "isolated vertices removed");
 
         let edges = EdgeCounts::of(&triangles);
@@ -88,17 +97,19 @@ impl Soup {
         mesh.normals = mesh.area_weighted_normals();
         let replaced = take_good_normals(&mut mesh.normals, &normals);
         warn(replaced, "normals replaced (missing, not finite or against the winding)");
-        Ok(mesh)
+        Ok((mesh, origins))
     }
 
-    /// Distinct positions [m], the sums of their normals, and the new index of each old vertex.
+    /// Distinct positions [m], the sums of their normals, the new index of each old vertex, and the first old vertex of each
+    /// new one.
     #[allow(clippy::type_complexity)]
-    fn welded(&self, metres_per_unit: f64) -> Result<(Vec<Vec3>, Vec<DVec3>, Vec<u32>), Found> {
+    fn welded(&self, metres_per_unit: f64) -> Result<(Vec<Vec3>, Vec<DVec3>, Vec<u32>, Vec<u32>), Found> {
         let mut known = HashMap::with_capacity(self.positions.len());
         let mut positions = Vec::with_capacity(self.positions.len());
         let mut normals: Vec<DVec3> = Vec::with_capacity(self.positions.len());
         let mut remap = Vec::with_capacity(self.positions.len());
-        for (position, normal) in self.positions.iter().zip(&self.normals) {
+        let mut origins = Vec::with_capacity(self.positions.len());
+        for (vertex, (position, normal)) in self.positions.iter().zip(&self.normals).enumerate() {
             // Adding zero makes −0 equal to +0 in bits.
             let p = (*position * metres_per_unit).as_vec3() + Vec3::ZERO;
             if !p.is_finite() {
@@ -108,12 +119,13 @@ impl Soup {
             let index = *known.entry(p.to_array().map(f32::to_bits)).or_insert_with(|| {
                 positions.push(p);
                 normals.push(DVec3::ZERO);
+                origins.push(vertex as u32);
                 positions.len() as u32 - 1
             });
             normals[index as usize] += *normal;
             remap.push(index);
         }
-        Ok((positions, normals, remap))
+        Ok((positions, normals, remap, origins))
     }
 }
 
@@ -138,7 +150,12 @@ fn remove_duplicates(triangles: &mut Vec<[u32; 3]>) {
 }
 
 /// Removes vertices of no triangle and returns how many there were: a stray point would enlarge the maps.
-fn remove_isolated(positions: &mut Vec<Vec3>, normals: &mut Vec<DVec3>, triangles: &mut [[u32; 3]]) -> usize {
+fn remove_isolated(
+    positions: &mut Vec<Vec3>,
+    normals: &mut Vec<DVec3>,
+    origins: &mut Vec<u32>,
+    triangles: &mut [[u32; 3]],
+) -> usize {
     let mut used = vec![false; positions.len()];
     triangles.iter().flatten().for_each(|i| used[*i as usize] = true);
     let mut kept = 0;
@@ -156,6 +173,8 @@ fn remove_isolated(positions: &mut Vec<Vec3>, normals: &mut Vec<DVec3>, triangle
         positions.retain(|_| *flags.next().expect("one flag per vertex"));
         let mut flags = used.iter();
         normals.retain(|_| *flags.next().expect("one flag per vertex"));
+        let mut flags = used.iter();
+        origins.retain(|_| *flags.next().expect("one flag per vertex"));
         triangles.iter_mut().flatten().for_each(|i| *i = remap[*i as usize]);
     }
     isolated

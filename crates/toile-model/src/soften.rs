@@ -3,8 +3,9 @@
 use crate::{Csr, Link};
 use toile_scene::{Rule, Settings};
 
-/// Steps of a frame that springs may ask for at most under a rule that holds the elongation by itself.
-const STEPS_PER_FRAME_MAX: f64 = 16.0;
+/// Shortest step [s] that springs may ask for under a rule that holds the elongation by itself: 16 in a frame of 1/60 s. It does
+/// not depend on the frame rate, so neither does the cloth.
+const STEP_MIN: f64 = 1.0 / 960.0;
 
 /// Largest ω·dt that softened links have. Stable is 2; below it, so that contacts do not excite the stiffest springs.
 const RATE_PER_STEP: f64 = 1.6;
@@ -15,8 +16,7 @@ const RATE_PER_STEP: f64 = 1.6;
 /// What is lost is resistance to compression and bending where the particles are too light for it. The other rules leave
 /// the tension to the springs, so there the step follows the stiffness.
 pub(crate) fn step_wanted(settings: &Settings) -> Option<f64> {
-    let frame = 1.0 / settings.frame_rate;
-    (settings.velocity_modification.rule == Rule::Predictive).then(|| frame / STEPS_PER_FRAME_MAX)
+    (settings.velocity_modification.rule == Rule::Predictive).then_some(STEP_MIN)
 }
 
 /// Makes links softer where their particles are too light for a step [s]: with Gershgorin's bound ω² ≤ 2·Σk·w the largest

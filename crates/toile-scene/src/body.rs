@@ -35,6 +35,13 @@ pub enum SphereMotion {
         /// Time of one swing there and back [s], positive.
         period: f64,
     },
+    /// Straight on while it turns.
+    Steady {
+        /// Velocity [m/s].
+        velocity: DVec3,
+        /// Angular velocity [rad/s].
+        spin: DVec3,
+    },
 }
 
 impl Sphere {
@@ -42,6 +49,7 @@ impl Sphere {
     pub fn at(&self, time: f64) -> (DVec3, DVec3) {
         match self.motion {
             SphereMotion::Still => (self.centre, DVec3::ZERO),
+            SphereMotion::Steady { velocity, .. } => (self.centre + velocity * time, velocity),
             SphereMotion::Swing { amplitude, period } => {
                 let rate = std::f64::consts::TAU / period;
                 let (sin, cos) = (rate * time).sin_cos();
@@ -50,8 +58,11 @@ impl Sphere {
         }
     }
 
-    /// Angular velocity at a time [rad/s].
-    pub fn spin(&self, _time: f64) -> DVec3 {
-        DVec3::ZERO
+    /// Angular velocity [rad/s].
+    pub fn spin(&self) -> DVec3 {
+        match self.motion {
+            SphereMotion::Still | SphereMotion::Swing { .. } => DVec3::ZERO,
+            SphereMotion::Steady { spin, .. } => spin,
+        }
     }
 }

@@ -19,7 +19,7 @@ pub use fabric::Fabric;
 pub use garment::{Curve, Edge, EdgeRef, Garment, Panel, Placement, Seam};
 pub use mesh::Mesh;
 pub use moving::{MeshSequence, Motion, MovingMesh};
-pub use rig::Rig;
+pub use rig::{Interpolation, Joint, Keys, Node, Property, Rig, RigidKey, Track, Transform};
 pub use settings::{Friction, Rule, Settings, VelocityModification};
 pub use sheet::{Pin, Sheet};
 pub use skin::{Displacement, Influence, Morphs, Pose, Skin};

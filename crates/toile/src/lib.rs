@@ -5,10 +5,12 @@
 
 mod error;
 mod frame;
+mod outfit;
 mod simulation;
 
 pub use error::Error;
 pub use frame::Frame;
+pub use outfit::{MovingFrame, Outfit};
 pub use simulation::{Colliders, Simulation};
 pub use toile_files as files;
 pub use toile_gpu as gpu;

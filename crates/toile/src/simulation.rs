@@ -100,6 +100,27 @@ impl Simulation {
         Ok(sewn)
     }
 
+    /// Records steps, at most as many as a frame has: for hosts whose bodies move within a frame. Maps of moving bodies show them
+    /// at the end of these steps.
+    pub fn record_steps(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, count: u32) {
+        self.solver.record_steps(device, encoder, count);
+    }
+
+    /// Records normals and status, as the end of a frame whose steps were recorded one by one.
+    pub fn record_outputs(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        self.solver.record_outputs(encoder);
+    }
+
+    /// Velocities [m/s] and masses [kg] of the particles, vec4 each; usage `STORAGE | COPY_SRC | COPY_DST`.
+    pub fn velocities(&self) -> &wgpu::Buffer {
+        self.solver.velocities()
+    }
+
+    /// The numbers of a step.
+    pub fn settings(&self) -> &StepSettings {
+        self.solver.settings()
+    }
+
     /// Buffers for a renderer.
     pub fn frame(&self) -> &Frame {
         &self.frame

@@ -5,6 +5,7 @@ mod dress;
 mod outfit;
 mod plan;
 mod run;
+mod walk;
 
 use crate::args::Command;
 use anyhow::Result;
@@ -14,6 +15,7 @@ use std::io::{self, ErrorKind, Write};
 pub fn run(command: &Command) -> Result<()> {
     match command {
         Command::Dress(arguments) => dress::run(arguments),
+        Command::Walk(arguments) => walk::run(arguments),
         Command::Run(arguments) => run::run(arguments),
         Command::Plan(arguments) => plan::run(arguments),
         Command::Adapters(arguments) => adapters::run(arguments),

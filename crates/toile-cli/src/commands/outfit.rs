@@ -4,7 +4,7 @@ use crate::args::Outfit;
 use anyhow::{Context, Result};
 use std::path::Path;
 use toile::files::{self, BodyOptions, SceneFile};
-use toile::scene::{Body, Cloth, Fabric, Scene, Settings, VelocityModification};
+use toile::scene::{Body, Cloth, Fabric, Garment, MovingMesh, Scene, Settings, VelocityModification};
 
 /// The built-in body and the pose it is dressed in.
 const BODY: &[u8] = include_bytes!("../../../../fixtures/bodies/walking_woman.glb");
@@ -17,8 +17,7 @@ const SWEEPS: u32 = 4;
 
 /// Reads the outfit as a scene. It runs until the garments are at rest, so it has no frames.
 pub fn read(outfit: &Outfit) -> Result<SceneFile> {
-    let options =
-        BodyOptions { metres_per_unit: outfit.body_units.metres(), clip: outfit.clip.clone(), time: outfit.time };
+    let options = options(outfit);
     let body = match &outfit.body {
         Some(path) => files::read_body(path, &options)?,
         None => {
@@ -26,26 +25,49 @@ pub fn read(outfit: &Outfit) -> Result<SceneFile> {
             files::parse_body(BODY, BODY_NAME, &BodyOptions { clip, metres_per_unit: 1.0, ..options })?
         }
     };
-    let mut cloths = Vec::new();
-    for path in &outfit.garment {
-        cloths.push(Cloth::Garment(files::read_garment(path)?));
-    }
-    if cloths.is_empty() {
-        cloths.push(Cloth::Garment(files::parse_garment(GARMENT, "dress")?));
-    }
-    let default = Settings::new(fabric(&outfit.fabric)?);
     let scene = Scene {
         name: "outfit".to_owned(),
-        cloths,
+        cloths: read_garments(outfit)?.into_iter().map(Cloth::Garment).collect(),
         bodies: vec![Body::Mesh(body.mesh)],
-        settings: Settings {
-            velocity_modification: VelocityModification { sweeps: SWEEPS, ..default.velocity_modification },
-            spacing: outfit.spacing,
-            texel: outfit.texel,
-            ..default
-        },
+        settings: settings(outfit)?,
     };
     Ok(SceneFile { scene, frames: 0, warnings: body.warnings })
+}
+
+/// Reads the body of the outfit with its motion, and what is unusual about it.
+pub fn read_moving_body(outfit: &Outfit) -> Result<(MovingMesh, Vec<String>)> {
+    let options = options(outfit);
+    let file = match &outfit.body {
+        Some(path) => files::read_moving_body(path, &options)?,
+        None => {
+            let clip = Some(outfit.clip.clone().unwrap_or_else(|| BODY_CLIP.to_owned()));
+            files::parse_moving_body(BODY, BODY_NAME, &BodyOptions { clip, metres_per_unit: 1.0, ..options })?
+        }
+    };
+    Ok((file.body, file.warnings))
+}
+
+/// Reads the garments of the outfit, inner ones first.
+pub fn read_garments(outfit: &Outfit) -> Result<Vec<Garment>> {
+    if outfit.garment.is_empty() {
+        return Ok(vec![files::parse_garment(GARMENT, "dress")?]);
+    }
+    Ok(outfit.garment.iter().map(|path| files::read_garment(path)).collect::<Result<_, _>>()?)
+}
+
+/// How the outfit is simulated.
+pub fn settings(outfit: &Outfit) -> Result<Settings> {
+    let default = Settings::new(fabric(&outfit.fabric)?);
+    Ok(Settings {
+        velocity_modification: VelocityModification { sweeps: SWEEPS, ..default.velocity_modification },
+        spacing: outfit.spacing,
+        texel: outfit.texel,
+        ..default
+    })
+}
+
+fn options(outfit: &Outfit) -> BodyOptions {
+    BodyOptions { metres_per_unit: outfit.body_units.metres(), clip: outfit.clip.clone(), time: outfit.time }
 }
 
 fn fabric(name: &str) -> Result<Fabric> {

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use toile::files::read_scene;
 use toile::gpu::{BodyMaps, Pass, Plan};
-use toile::model::{MapFrame, Model, Needs, StepSettings};
+use toile::model::{MapFrame, Maps, Model, Needs, StepSettings};
 use toile::scene::{Body, Cloth, Scene};
 
 /// Prints passes, dispatches and bytes of every cloth of a scene.
@@ -69,10 +69,10 @@ fn plans(scene: &Scene) -> Result<Vec<ClothPlan>> {
                 (&garment.name, vec![("open", open), ("sewn", sewn)])
             }
         };
-        let map_bytes = bounds.map_or(0, |b| BodyMaps::bytes_over(&MapFrame::around(b, scene.settings.texel as f32)));
+        let map_bytes = bounds.map_or(0, |b| BodyMaps::bytes_over(&MapFrame::around(b, scene.settings.texel as f32), false));
         for (state, model) in &models {
             let settings = StepSettings::new(&scene.settings, model);
-            let needs = Needs::new(model, &settings, bounds.is_some(), sphere);
+            let needs = Needs::new(model, &settings, if bounds.is_some() { Maps::Still } else { Maps::None }, sphere);
             plans.push(ClothPlan::new(name, state, model, &settings, &needs, map_bytes));
         }
         // A later cloth lies over this one. Where it will hang is not known; near the body it changes little.

@@ -1,10 +1,16 @@
 //! Pictures side by side, and as files.
 
 use super::PictureError;
+use image::codecs::gif::{GifEncoder, Repeat};
 use image::codecs::png::PngEncoder;
-use image::{GenericImage, ImageError, RgbImage};
+use image::{Delay, Frame, GenericImage, ImageError, RgbImage};
 use std::io::{BufWriter, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// Effort of the palettes, 1 (best) to 30 (fastest).
+const GIF_SPEED: i32 = 20;
+/// More pictures per second than this a GIF does not show [1/s].
+const GIF_RATE_MAX: f64 = 30.0;
 
 /// All pictures side by side from left to right, upper edges in line. Lower pictures get white below them.
 ///
@@ -30,13 +36,53 @@ pub fn save_png(path: &Path, image: &RgbImage) -> Result<(), PictureError> {
     write(path, image).map_err(|source| PictureError::Write { path: path.to_owned(), source })
 }
 
-fn write(path: &Path, image: &RgbImage) -> Result<(), ImageError> {
+/// Joins pictures on disk to a GIF that repeats. The file appears complete or not at all.
+///
+/// # Errors
+/// [`PictureError::Write`] with the path, when a picture cannot be read or the GIF cannot be written.
+pub fn save_gif(
+    path: &Path,
+    pictures: impl Iterator<Item = PathBuf>,
+    frame_rate: f64,
+) -> Result<(), PictureError> {
+    write_gif(path, pictures, frame_rate).map_err(|source| PictureError::Write { path: path.to_owned(), source })
+}
+
+fn write_gif(path: &Path, pictures: impl Iterator<Item = PathBuf>, frame_rate: f64) -> Result<(), ImageError> {
     let directory = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let file = temporary(".gif").tempfile_in(directory)?;
+    {
+        let mut encoder = GifEncoder::new_with_speed(BufWriter::new(&file), GIF_SPEED);
+        encoder.set_repeat(Repeat::Infinite)?;
+        // A GIF counts in hundredths of a second: fewer pictures rather than a slower walk.
+        let stride = (GIF_RATE_MAX.recip() * frame_rate).ceil().max(1.0) as usize;
+        let delay = Delay::from_numer_denom_ms((1e3 * stride as f64 / frame_rate).round() as u32, 1);
+        let mut size = None;
+        for picture in pictures.step_by(stride) {
+            let image = image::open(&picture)?.to_rgba8();
+            let (width, height) = *size.get_or_insert(image.dimensions());
+            // Every frame of a GIF has the size of the first.
+            let mut frame = image::RgbaImage::from_pixel(width, height, image::Rgba([255; 4]));
+            image::imageops::overlay(&mut frame, &image, (i64::from(width) - i64::from(image.width())) / 2, 0);
+            encoder.encode_frame(Frame::from_parts(frame, 0, 0, delay))?;
+        }
+    }
+    file.persist(path).map_err(|e| e.error)?;
+    Ok(())
+}
+
+/// A temporary file with the rights of any new file; by default they are private.
+fn temporary(suffix: &'static str) -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
-    // Temporary files are private by default; this one is to have the rights of any new file.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let file = builder.prefix(".picture").suffix(".png").tempfile_in(directory)?;
+    builder.prefix(".picture").suffix(suffix);
+    builder
+}
+
+fn write(path: &Path, image: &RgbImage) -> Result<(), ImageError> {
+    let directory = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let file = temporary(".png").tempfile_in(directory)?;
     let mut writer = BufWriter::new(&file);
     image.write_with_encoder(PngEncoder::new(&mut writer))?;
     writer.flush()?;

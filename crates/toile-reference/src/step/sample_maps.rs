@@ -66,7 +66,7 @@ impl View<'_> {
         let next = position + velocity * dt;
         let drift = self.drift(next, velocity);
         let (place, side) = self.entry(position + drift * self.lag.start, next + drift * self.lag.end);
-        let [across, down] = texel_coordinates(frame, place);
+        let [across, down] = texels(frame, place).map(|texels| texels - 0.5);
         let [left, top] = [across.floor(), down.floor()];
         if !(left >= 0.0 && left + 1.0 < frame.columns as f32 && top >= 0.0 && top + 1.0 < frame.rows as f32) {
             return None;
@@ -149,10 +149,10 @@ impl View<'_> {
         }
     }
 
-    /// The texel nearest to a place, where it shows a surface.
+    /// The texel that holds a place, where it shows a surface.
     fn texel_under(&self, place: Vec3) -> Option<Texel> {
         let frame = &self.maps.frame;
-        let [column, row] = texel_coordinates(frame, place).map(|coordinate| (coordinate + 0.5).floor());
+        let [column, row] = texels(frame, place).map(f32::floor);
         if !(column >= 0.0 && column < frame.columns as f32 && row >= 0.0 && row < frame.rows as f32) {
             return None;
         }
@@ -195,7 +195,7 @@ impl View<'_> {
     }
 }
 
-/// Column and row of a place, where texel centres are the whole numbers.
-fn texel_coordinates(frame: &MapFrame, place: Vec3) -> [f32; 2] {
-    [(place.x - frame.origin_x) / frame.texel - 0.5, (frame.origin_y - place.y) / frame.texel - 0.5]
+/// Place in the maps, in texels from their left and upper border.
+fn texels(frame: &MapFrame, place: Vec3) -> [f32; 2] {
+    [(place.x - frame.origin_x) / frame.texel, (frame.origin_y - place.y) / frame.texel]
 }

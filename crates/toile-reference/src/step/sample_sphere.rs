@@ -1,7 +1,7 @@
 //! Points against the analytic sphere.
 
 use crate::{Ball, Probe};
-use glam::Vec3;
+use glam::{Vec3, Vec3Swizzles};
 use toile_model::StepSettings;
 
 /// Writes the sphere into the probe of each point that it reaches within this step, where the probe has no surface yet or a
@@ -22,7 +22,8 @@ pub fn sample_sphere(
         if length > 0.0 {
             let normal = met / length;
             let distance = normal.dot(radial) - ball.radius;
-            let surface_velocity = ball.velocity + ball.spin.cross(met);
+            // The cross product of spin and radius, added term by term: the order is part of the answer.
+            let surface_velocity = (ball.velocity + ball.spin.yzx() * met.zxy()) - ball.spin.zxy() * met.yzx();
             let next = distance + (velocity - surface_velocity).dot(normal) * settings.dt;
             if next < settings.contact_margin && (!probe.hit || distance < probe.distance) {
                 *probe = Probe { normal, distance, velocity: surface_velocity, hit: true };

@@ -1,0 +1,37 @@
+//! `toile walk`.
+
+use crate::args::Walk;
+use crate::commands::outfit;
+use crate::walk;
+use anyhow::{Result, bail};
+use toile::scene::Settings;
+
+/// Walks the outfit that the options name.
+pub fn run(arguments: &Walk) -> Result<()> {
+    let outfit = &arguments.outfit;
+    if outfit.time != 0.0 {
+        bail!("--time {}: a walk begins with its clip; leave it out", outfit.time);
+    }
+    let (body, warnings) = outfit::read_moving_body(outfit)?;
+    if !arguments.running.quiet {
+        for warning in &warnings {
+            eprintln!("warning: {warning}");
+        }
+    }
+    let seconds = arguments.seconds.unwrap_or(body.duration());
+    let frame_count = (seconds * arguments.fps).round() as u32;
+    if frame_count == 0 {
+        bail!("a walk of {seconds} s at {} frames per second has no frame: give more --seconds", arguments.fps);
+    }
+    walk::walk(
+        &walk::Walk {
+            body,
+            garments: outfit::read_garments(outfit)?,
+            settings: Settings { frame_rate: arguments.fps, ..outfit::settings(outfit)? },
+            frame_count,
+            resume: arguments.resume,
+            identity: format!("{outfit:?} {seconds} s {} fps", arguments.fps),
+        },
+        &arguments.running,
+    )
+}

@@ -1,0 +1,226 @@
+//! A walk: an outfit is dressed in the first pose of a clip and goes along with the body, frame by frame.
+
+mod regions;
+mod rows;
+mod saved;
+
+use crate::adapter::{self, Gpu};
+use crate::args::{Backend, Running};
+use crate::commands::print;
+use crate::engine::{Computer, Layer};
+use crate::interrupt;
+use crate::output;
+use crate::picture::{self, Drawn, Material, View};
+use crate::worn::{self, Surroundings};
+use anyhow::{Context, Result, bail};
+use glam::Vec3;
+use indicatif::{ProgressBar, ProgressStyle};
+use regions::Regions;
+use rows::{FrameRow, WalkMetrics};
+use saved::{GarmentState, Saved};
+use std::path::Path;
+use std::time::Instant;
+use toile::Outfit;
+use toile::files::{MovingFaces, write_atomically, write_pc2, write_usda};
+use toile::gpu::readback;
+use toile::model::{Model, StepSettings};
+use toile::scene::{Garment, Mesh, MovingMesh, Settings};
+use toile_reference::ExactDistance;
+
+/// Maps are drawn so often at least [1/s]; in between, surfaces go straight on by the velocity map.
+const MAP_RATE: f64 = 60.0;
+/// Height of the pictures [px].
+const PICTURE_HEIGHT: u32 = 480;
+
+/// What walks.
+pub struct Walk {
+    /// The body and its motion.
+    pub body: MovingMesh,
+    /// The garments, inner ones first.
+    pub garments: Vec<Garment>,
+    /// How they are simulated, at the frame rate of the walk.
+    pub settings: Settings,
+    /// Number of frames after the first.
+    pub frame_count: u32,
+    /// Whether to go on where an interrupted walk ended.
+    pub resume: bool,
+    /// All that decides the result, as text: a walk goes on only with the same.
+    pub identity: String,
+}
+
+/// A garment that is dressed and goes along.
+struct Walker {
+    name: String,
+    model: Model,
+    settings: StepSettings,
+    triangles: Vec<[u32; 3]>,
+}
+
+/// Dresses and walks, and writes pictures, motion and metrics.
+pub fn walk(walk: &Walk, running: &Running) -> Result<()> {
+    output::check(&running.out)?;
+    if running.place.backend == Backend::Reference {
+        bail!("--backend reference: a walk needs a device; toile dress runs without one");
+    }
+    let computer = Computer::Gpu(adapter::open(&running.place)?);
+    let Computer::Gpu(gpu) = &computer else { unreachable!("it was just opened") };
+    let saved = Saved::open(&running.out, &walk.identity, walk.resume)?;
+    let walkers = walk.garments.iter().map(|garment| walker(garment, &walk.settings)).collect::<Result<Vec<_>>>()?;
+    if saved.frame_count() == 0 {
+        saved.write(0, &dress(walk, &computer, running.quiet)?, None)?;
+    }
+    simulate(walk, gpu, &walkers, &saved, running)?;
+    let rows = saved.rows(walk.frame_count)?;
+    finish(walk, &walkers, &saved, running)?;
+    let metrics = WalkMetrics::new(&gpu.name, &walk.settings, &walkers, rows);
+    let text = serde_json::to_string_pretty(&metrics)?;
+    write_atomically(&running.out.join("metrics.json"), text.as_bytes())?;
+    saved.remove()?;
+    if running.json {
+        print(&text)?;
+    } else if !running.quiet {
+        print(&metrics.line())?;
+        print(&format!("wrote {}", running.out.display()))?;
+    }
+    Ok(())
+}
+
+fn walker(garment: &Garment, settings: &Settings) -> Result<Walker> {
+    let (model, _) = Model::from_garment(garment, settings)?.sewn();
+    let settings = StepSettings::new(settings, &model);
+    Ok(Walker { name: garment.name.clone(), triangles: model.triangles(), model, settings })
+}
+
+/// Dresses the garments one over the other in the first pose.
+fn dress(walk: &Walk, computer: &Computer, quiet: bool) -> Result<Vec<GarmentState>> {
+    let thickness = walk.settings.fabric.thickness as f32;
+    let texel = walk.settings.texel as f32;
+    let mut layers = vec![Layer { mesh: walk.body.mesh.clone(), thickness }];
+    let mut states = Vec::new();
+    for garment in &walk.garments {
+        let around = Surroundings { computer, layers: &layers, sphere: None, texel, quiet };
+        let worn = worn::dress(garment, &walk.settings, &around)?;
+        states.push(GarmentState::at_rest(&worn.mesh.positions));
+        layers.push(Layer { mesh: worn.mesh, thickness });
+    }
+    Ok(states)
+}
+
+fn simulate(walk: &Walk, gpu: &Gpu, walkers: &[Walker], saved: &Saved, running: &Running) -> Result<()> {
+    let seconds = 1.0 / walk.settings.frame_rate;
+    let steps = walkers[0].settings.steps_per_frame;
+    let maps_per_frame = maps_per_frame(steps, walk.settings.frame_rate);
+    let done = saved.frame_count() - 1;
+    let texel = walk.settings.texel as f32;
+    let garments: Vec<_> = walkers.iter().map(|walker| (&walker.model, walker.settings.clone())).collect();
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    let mut outfit = Outfit::new(&gpu.device, &mut encoder, &walk.body, &garments, texel, maps_per_frame)?;
+    outfit.record_start(&gpu.device, &mut encoder, f64::from(done) * seconds);
+    gpu.queue.submit([encoder.finish()]);
+    let states = saved.read(done)?;
+    for ((simulation, walker), state) in outfit.garments().zip(walkers).zip(&states) {
+        state.upload(gpu, simulation, &walker.model)?;
+    }
+    let regions = Regions::new(&walk.body);
+    let progress = progress(walk.frame_count, done, running.quiet);
+    for frame in done + 1..=walk.frame_count {
+        interrupt::check().context("go on with --resume")?;
+        let start = Instant::now();
+        let time = f64::from(frame - 1) * seconds;
+        let interval = seconds / f64::from(maps_per_frame);
+        let mut maps_ms = 0.0;
+        for index in 0..maps_per_frame {
+            let next = time + interval * f64::from(index + 1);
+            maps_ms += timed(gpu, |encoder| outfit.record_pose(&gpu.device, encoder, next))?;
+            timed(gpu, |encoder| outfit.record_steps(&gpu.device, encoder, interval))?;
+        }
+        timed(gpu, |encoder| outfit.record_outputs(encoder))?;
+        let simulated_ms = 1e3 * start.elapsed().as_secs_f64() - maps_ms;
+        let output = Instant::now();
+        let mut row = FrameRow::new(frame, f64::from(frame) * seconds, maps_ms, simulated_ms);
+        let mut states = Vec::new();
+        let body = walk.body.at(f64::from(frame) * seconds);
+        let exact = ExactDistance::new(&body);
+        let mut cloths = Vec::new();
+        for (simulation, walker) in outfit.garments_mut().zip(walkers) {
+            let status = simulation.status()?.unwrap_or_default();
+            let state = GarmentState::download(gpu, simulation)?;
+            let normals = readback::read_vec4s(&gpu.device, &gpu.queue, &simulation.frame().normals)?;
+            row.add(&walker.model, &state, &status, &exact, &body, &regions, walk.settings.fabric.thickness, texel);
+            let normals: Vec<Vec3> = normals.into_iter().map(|normal| normal.truncate()).collect();
+            cloths.push(Mesh { positions: state.positions(), normals, triangles: walker.triangles.clone() });
+            states.push(state);
+        }
+        draw(&running.out, frame, &body, &cloths)?;
+        row.output_ms = 1e3 * output.elapsed().as_secs_f64();
+        saved.write(frame, &states, Some(&row))?;
+        progress.inc(1);
+    }
+    progress.finish();
+    Ok(())
+}
+
+/// How often the maps are drawn in a frame: at least at the map rate, and so that the steps divide evenly.
+fn maps_per_frame(steps: u32, frame_rate: f64) -> u32 {
+    let wanted = ((MAP_RATE / frame_rate).ceil() as u32).clamp(1, steps);
+    (wanted..=steps).find(|count| steps % count == 0).unwrap_or(steps)
+}
+
+/// Submits what is recorded, waits, and says how long it took [ms].
+fn timed(gpu: &Gpu, record: impl FnOnce(&mut wgpu::CommandEncoder)) -> Result<f64> {
+    let start = Instant::now();
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    record(&mut encoder);
+    gpu.queue.submit([encoder.finish()]);
+    gpu.device.poll(wgpu::PollType::wait_indefinitely())?;
+    Ok(1e3 * start.elapsed().as_secs_f64())
+}
+
+fn progress(frame_count: u32, done: u32, quiet: bool) -> ProgressBar {
+    let bar = if quiet { ProgressBar::hidden() } else { ProgressBar::new(u64::from(frame_count)) };
+    let template = "walking: {bar:30} {pos} of {len} frames, {per_sec}, {eta} left";
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
+    }
+    bar.set_position(u64::from(done));
+    bar.reset_eta();
+    bar
+}
+
+/// Two views side by side.
+fn draw(folder: &Path, frame: u32, body: &Mesh, cloths: &[Mesh]) -> Result<()> {
+    let mut drawn = vec![Drawn { mesh: body, material: Material::SKIN }];
+    drawn.extend(cloths.iter().enumerate().map(|(i, mesh)| Drawn { mesh, material: Material::cloth(i) }));
+    let views = [View::ThreeQuarter, View::Side].map(|view| picture::render(&drawn, view, PICTURE_HEIGHT));
+    let views = views.into_iter().collect::<Result<Vec<_>, _>>()?;
+    std::fs::create_dir_all(folder)?;
+    Ok(picture::save_png(&picture_path(folder, frame), &picture::strip(&views))?)
+}
+
+fn picture_path(folder: &Path, frame: u32) -> std::path::PathBuf {
+    folder.join(format!("frame_{frame:04}.png"))
+}
+
+/// Writes the motion and the moving picture from what was saved of each frame.
+fn finish(walk: &Walk, walkers: &[Walker], saved: &Saved, running: &Running) -> Result<()> {
+    let count = walk.frame_count as usize + 1;
+    let rate = walk.settings.frame_rate;
+    let faces: Vec<MovingFaces<'_>> = walkers
+        .iter()
+        .enumerate()
+        .map(|(i, walker)| MovingFaces {
+            name: &walker.name,
+            triangles: &walker.triangles,
+            colour: Material::cloth(i).linear_outside(),
+        })
+        .collect();
+    let points = |mesh: usize, frame: usize| saved.positions(frame as u32, mesh);
+    write_usda(&running.out.join("walk.usda"), &faces, count, rate, points)?;
+    for (index, walker) in walkers.iter().enumerate() {
+        let path = running.out.join(format!("{index}_{}.pc2", walker.name));
+        write_pc2(&path, walker.model.positions.len(), count, |frame| saved.positions(frame as u32, index))?;
+    }
+    let frames = (1..=walk.frame_count).map(|frame| picture_path(&running.out, frame));
+    picture::save_gif(&running.out.join("walk.gif"), frames, rate)?;
+    Ok(())
+}

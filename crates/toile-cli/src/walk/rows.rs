@@ -1,0 +1,184 @@
+//! What is measured of a walk, frame by frame.
+
+use super::Walker;
+use super::regions::Regions;
+use super::saved::GarmentState;
+use crate::metrics::max_and_p99;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use toile::model::{Model, Status};
+use toile::scene::{Mesh, Settings};
+use toile_reference::ExactDistance;
+
+/// What is measured of a walk. The names are stable.
+#[derive(Debug, Serialize)]
+pub struct WalkMetrics {
+    adapter: String,
+    garments: Vec<String>,
+    particle_count: u32,
+    steps_per_frame: u32,
+    frame_rate: f64,
+    threshold: f64,
+    frame_count: usize,
+    elongation_max: f64,
+    elongation_p99_worst: f64,
+    penetration_max_mm: f64,
+    penetration_p99_worst_mm: f64,
+    false_contact_fraction_mean: f64,
+    false_contacts_by_region: BTreeMap<String, u32>,
+    non_finite_count: u32,
+    maps_ms_median: f64,
+    simulation_ms_median: f64,
+    output_ms_median: f64,
+    frames: Vec<FrameRow>,
+}
+
+/// What is measured of one frame, over all garments.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct FrameRow {
+    /// Number of the frame; 0 is the dressed start.
+    pub frame: u32,
+    /// Time in the walk [s].
+    pub time_s: f64,
+    /// Largest elongation of a structural or shear spring [1].
+    pub elongation_max: f64,
+    /// 99th percentile of it, of the garment where it is largest [1].
+    pub elongation_p99: f64,
+    /// Deepest particle below the exact surface of the body [mm], negative when all are outside.
+    pub penetration_max_mm: f64,
+    /// 99th percentile of it, of the garment where it is largest [mm].
+    pub penetration_p99_mm: f64,
+    /// Particles in contact by the maps that are farther from the body than thickness + 2 texels, as part of all.
+    pub false_contact_fraction: f64,
+    /// Those particles by the region of the body that is nearest to them.
+    pub false_contacts_by_region: BTreeMap<String, u32>,
+    /// Number of particles.
+    pub particle_count: u32,
+    /// Largest speed [m/s].
+    pub speed_max: f32,
+    /// Kinetic energy [J].
+    pub kinetic_energy: f32,
+    /// Particles that are not finite.
+    pub non_finite_count: u32,
+    /// Wall time of the poses and maps of the frame [ms].
+    pub maps_ms: f64,
+    /// Wall time of its steps [ms].
+    pub simulation_ms: f64,
+    /// Wall time of reading back, measuring, drawing and saving [ms].
+    pub output_ms: f64,
+}
+
+impl FrameRow {
+    /// A frame of which only the times are known.
+    pub fn new(frame: u32, time_s: f64, maps_ms: f64, simulation_ms: f64) -> Self {
+        let none = f64::NEG_INFINITY;
+        Self {
+            frame,
+            time_s,
+            maps_ms,
+            simulation_ms,
+            penetration_max_mm: none,
+            penetration_p99_mm: none,
+            ..Self::default()
+        }
+    }
+
+    /// Adds a garment.
+    #[expect(clippy::too_many_arguments, reason = "a row is where garment, body and settings meet")]
+    pub fn add(
+        &mut self,
+        model: &Model,
+        state: &GarmentState,
+        status: &Status,
+        exact: &ExactDistance,
+        body: &Mesh,
+        regions: &Regions,
+        thickness: f64,
+        texel: f32,
+    ) {
+        let positions = state.positions();
+        let elongation = |limit: &toile::model::Limit| {
+            let [a, b] = limit.ends.map(|end| positions[end as usize].as_dvec3());
+            a.distance(b) / f64::from(limit.rest_length) - 1.0
+        };
+        let [max, p99] = max_and_p99(model.limits.iter().map(elongation).collect()).unwrap_or_default();
+        self.elongation_max = self.elongation_max.max(max);
+        self.elongation_p99 = self.elongation_p99.max(p99);
+        let depths: Vec<f64> = positions.iter().map(|p| exact.penetration(p.as_dvec3())).collect();
+        let reach = thickness + 2.0 * f64::from(texel);
+        let mut false_count = 0;
+        for ((position, depth), touching) in positions.iter().zip(&depths).zip(state.touching()) {
+            if touching && *depth < -reach {
+                false_count += 1;
+                let region = regions.nearest(body, position.as_dvec3());
+                *self.false_contacts_by_region.entry(region.to_owned()).or_default() += 1;
+            }
+        }
+        let before = f64::from(self.particle_count) * self.false_contact_fraction;
+        self.particle_count += positions.len() as u32;
+        self.false_contact_fraction = (before + f64::from(false_count)) / f64::from(self.particle_count.max(1));
+        let [max, p99] = max_and_p99(depths).unwrap_or([f64::NEG_INFINITY; 2]);
+        self.penetration_max_mm = self.penetration_max_mm.max(1e3 * max);
+        self.penetration_p99_mm = self.penetration_p99_mm.max(1e3 * p99);
+        self.speed_max = self.speed_max.max(status.speed_max);
+        self.kinetic_energy += status.kinetic_energy;
+        self.non_finite_count += status.non_finite_count;
+    }
+}
+
+impl WalkMetrics {
+    /// The metrics of a walk from its rows.
+    pub fn new(adapter: &str, settings: &Settings, walkers: &[Walker], frames: Vec<FrameRow>) -> Self {
+        let most = |value: fn(&FrameRow) -> f64| frames.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
+        let median = |value: fn(&FrameRow) -> f64| {
+            let mut values: Vec<f64> = frames.iter().map(value).collect();
+            values.sort_by(f64::total_cmp);
+            values.get(values.len() / 2).copied().unwrap_or(0.0)
+        };
+        let mut regions: BTreeMap<String, u32> = BTreeMap::new();
+        for (region, count) in frames.iter().flat_map(|row| &row.false_contacts_by_region) {
+            *regions.entry(region.clone()).or_default() += count;
+        }
+        let fractions: f64 = frames.iter().map(|row| row.false_contact_fraction).sum();
+        Self {
+            adapter: adapter.to_owned(),
+            garments: walkers.iter().map(|walker| walker.name.clone()).collect(),
+            particle_count: walkers.iter().map(|walker| walker.model.particle_count()).sum(),
+            steps_per_frame: walkers.first().map_or(0, |walker| walker.settings.steps_per_frame),
+            frame_rate: settings.frame_rate,
+            threshold: settings.fabric.threshold,
+            frame_count: frames.len(),
+            elongation_max: most(|row| row.elongation_max),
+            elongation_p99_worst: most(|row| row.elongation_p99),
+            penetration_max_mm: most(|row| row.penetration_max_mm),
+            penetration_p99_worst_mm: most(|row| row.penetration_p99_mm),
+            false_contact_fraction_mean: fractions / frames.len().max(1) as f64,
+            false_contacts_by_region: regions,
+            non_finite_count: frames.iter().map(|row| row.non_finite_count).sum(),
+            maps_ms_median: median(|row| row.maps_ms),
+            simulation_ms_median: median(|row| row.simulation_ms),
+            output_ms_median: median(|row| row.output_ms),
+            frames,
+        }
+    }
+
+    /// The walk on one line, for the terminal.
+    pub fn line(&self) -> String {
+        format!(
+            "{}: {} particles · {} frames of {} steps · elongation {:.1} % (99 of 100: {:.1} %) · penetration {:.1} mm (99 of \
+             100: {:.1} mm) · false contacts {:.2} % · maps {:.0} ms, simulation {:.0} ms, output {:.0} ms per frame",
+            self.garments.join(", "),
+            self.particle_count,
+            self.frame_count,
+            self.steps_per_frame,
+            1e2 * self.elongation_max,
+            1e2 * self.elongation_p99_worst,
+            self.penetration_max_mm,
+            self.penetration_p99_worst_mm,
+            1e2 * self.false_contact_fraction_mean,
+            self.maps_ms_median,
+            self.simulation_ms_median,
+            self.output_ms_median,
+        )
+    }
+}

@@ -1,0 +1,208 @@
+//! What is kept of every frame while a walk is under way, so that it can go on after an interruption, bit for bit.
+
+use super::rows::FrameRow;
+use crate::adapter::Gpu;
+use anyhow::{Context, Result, bail};
+use glam::{Vec3, Vec4};
+use std::fs;
+use std::path::{Path, PathBuf};
+use toile::Simulation;
+use toile::files::{FileError, write_atomically};
+use toile::gpu::readback;
+use toile::model::Model;
+
+/// Folder of a walk that is not finished, within that of its results.
+const FOLDER: &str = ".unfinished-walk";
+/// File that says which walk it is.
+const IDENTITY: &str = "identity.json";
+
+/// The state of a garment as the device holds it: three arrays of vec4.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GarmentState {
+    /// Positions and inverse masses, velocities and masses, each of shape [particle_count]; contacts, two per particle.
+    arrays: [Vec<Vec4>; 3],
+}
+
+impl GarmentState {
+    /// A garment that stands still and touches nothing yet.
+    pub fn at_rest(positions: &[Vec3]) -> Self {
+        let zeros = vec![Vec4::ZERO; positions.len()];
+        let positions = positions.iter().map(|p| p.extend(0.0)).collect();
+        Self { arrays: [positions, zeros.clone(), [zeros.clone(), zeros].concat()] }
+    }
+
+    /// Reads the state of a garment.
+    pub fn download(gpu: &Gpu, simulation: &Simulation) -> Result<Self> {
+        let contacts = simulation.contacts().context("a garment on a body has contacts")?;
+        let read = |buffer| readback::read_vec4s(&gpu.device, &gpu.queue, buffer);
+        Ok(Self { arrays: [read(&simulation.frame().positions)?, read(simulation.velocities())?, read(contacts)?] })
+    }
+
+    /// Writes it to the device; the masses are those of the model.
+    pub fn upload(&self, gpu: &Gpu, simulation: &Simulation, model: &Model) -> Result<()> {
+        let [positions, velocities, contacts] = &self.arrays;
+        let count = model.positions.len();
+        if [positions.len(), velocities.len(), contacts.len()] != [count, count, 2 * count] {
+            bail!("the saved walk has {} particles where the garment has {count}: start anew", positions.len());
+        }
+        let with = |values: &[Vec4], w: &[f32]| -> Vec<Vec4> {
+            values.iter().zip(w).map(|(value, w)| value.truncate().extend(*w)).collect()
+        };
+        let write = |buffer: &wgpu::Buffer, values: &[Vec4]| {
+            gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(values));
+        };
+        write(&simulation.frame().positions, &with(positions, &model.inverse_masses));
+        write(simulation.velocities(), &with(velocities, &model.masses));
+        write(simulation.contacts().context("a garment on a body has contacts")?, contacts);
+        Ok(())
+    }
+
+    /// Positions [m], shape [particle_count].
+    pub fn positions(&self) -> Vec<Vec3> {
+        self.arrays[0].iter().map(|position| position.truncate()).collect()
+    }
+
+    /// Which particles are in contact, shape [particle_count].
+    pub fn touching(&self) -> impl Iterator<Item = bool> {
+        self.arrays[2].chunks_exact(2).map(|contact| contact[0].w > 0.0)
+    }
+}
+
+/// The frames of a walk on disk.
+pub struct Saved {
+    folder: PathBuf,
+}
+
+impl Saved {
+    /// Opens the frames of a walk, or begins.
+    ///
+    /// An unfinished walk is never overwritten: it is an error unless `resume` says to go on, and then it must be the same walk.
+    pub fn open(out: &Path, identity: &str, resume: bool) -> Result<Self> {
+        let folder = out.join(FOLDER);
+        let saved = Self { folder };
+        let known = saved.folder.join(IDENTITY);
+        if known.exists() {
+            if !resume {
+                bail!(
+                    "{} holds an unfinished walk: go on with --resume, name another folder, or delete {}",
+                    out.display(),
+                    saved.folder.display()
+                );
+            }
+            if fs::read_to_string(&known)? != identity {
+                bail!("the unfinished walk in {} is another one: give the same options, or name another folder", out.display());
+            }
+            return Ok(saved);
+        }
+        if resume {
+            bail!("there is no unfinished walk in {}: leave --resume out", out.display());
+        }
+        fs::create_dir_all(&saved.folder).with_context(|| format!("cannot create {}", saved.folder.display()))?;
+        write_atomically(&known, identity.as_bytes())?;
+        Ok(saved)
+    }
+
+    /// How many frames there are, without a gap from the first.
+    pub fn frame_count(&self) -> u32 {
+        (0..).take_while(|frame| self.state_path(*frame).exists()).count() as u32
+    }
+
+    /// Keeps a frame.
+    pub fn write(&self, frame: u32, states: &[GarmentState], row: Option<&FrameRow>) -> Result<()> {
+        if let Some(row) = row {
+            write_atomically(&self.row_path(frame), &serde_json::to_vec(row)?)?;
+        }
+        let mut bytes = Vec::new();
+        for array in states.iter().flat_map(|state| &state.arrays) {
+            bytes.extend((array.len() as u64).to_le_bytes());
+            bytes.extend_from_slice(bytemuck::cast_slice(array));
+        }
+        // The state last: a frame counts once it is there.
+        Ok(write_atomically(&self.state_path(frame), &bytes)?)
+    }
+
+    /// The garments of a frame.
+    pub fn read(&self, frame: u32) -> Result<Vec<GarmentState>> {
+        let path = self.state_path(frame);
+        let bytes = fs::read(&path).with_context(|| format!("{}: it cannot be read", path.display()))?;
+        let damaged = || format!("{}: it is damaged: delete it, and --resume goes on from the frame before", path.display());
+        let mut arrays = Vec::new();
+        let mut rest = bytes.as_slice();
+        while !rest.is_empty() {
+            let (length, more) = rest.split_at_checked(8).with_context(damaged)?;
+            let count = u64::from_le_bytes(length.try_into().with_context(damaged)?);
+            let size = usize::try_from(count).ok().and_then(|count| count.checked_mul(16)).with_context(damaged)?;
+            let (values, more) = more.split_at_checked(size).with_context(damaged)?;
+            arrays.push(bytemuck::pod_collect_to_vec(values));
+            rest = more;
+        }
+        let mut states = Vec::new();
+        let mut arrays = arrays.into_iter();
+        while let Some(positions) = arrays.next() {
+            let [velocities, contacts] = [arrays.next().with_context(damaged)?, arrays.next().with_context(damaged)?];
+            states.push(GarmentState { arrays: [positions, velocities, contacts] });
+        }
+        Ok(states)
+    }
+
+    /// Positions of a garment in a frame [m].
+    pub fn positions(&self, frame: u32, garment: usize) -> Result<Vec<Vec3>, FileError> {
+        match self.read(frame) {
+            Ok(states) if garment < states.len() => Ok(states[garment].positions()),
+            _ => Err(FileError::unreadable(&self.state_path(frame))),
+        }
+    }
+
+    /// The rows of the frames from 1 to `last`.
+    pub fn rows(&self, last: u32) -> Result<Vec<FrameRow>> {
+        let row = |frame| {
+            let path = self.row_path(frame);
+            let text = fs::read(&path).with_context(|| format!("{}: it cannot be read", path.display()))?;
+            serde_json::from_slice(&text).with_context(|| format!("{}: it is damaged", path.display()))
+        };
+        (1..=last).map(row).collect()
+    }
+
+    /// Deletes what was kept: the walk is finished.
+    pub fn remove(&self) -> Result<()> {
+        fs::remove_dir_all(&self.folder).with_context(|| format!("{}: it cannot be deleted", self.folder.display()))
+    }
+
+    fn state_path(&self, frame: u32) -> PathBuf {
+        self.folder.join(format!("{frame:06}.state"))
+    }
+
+    fn row_path(&self, frame: u32) -> PathBuf {
+        self.folder.join(format!("{frame:06}.json"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_walk_goes_on_only_where_and_as_it_was() {
+        let out = tempfile::tempdir().expect("a folder");
+        let told = |resume, identity| Saved::open(out.path(), identity, resume).map(|_| ()).map_err(|e| e.to_string());
+        assert!(told(true, "a").is_err_and(|e| e.contains("no unfinished walk")));
+        let saved = Saved::open(out.path(), "a", false).expect("a new walk");
+        assert!(told(false, "a").is_err_and(|e| e.contains("--resume")), "nothing is overwritten");
+        assert!(told(true, "b").is_err_and(|e| e.contains("another one")));
+        assert_eq!(told(true, "a"), Ok(()));
+
+        let state = GarmentState::at_rest(&[Vec3::X, Vec3::Y]);
+        saved.write(0, &[state.clone(), state.clone()], None).expect("written");
+        saved.write(2, &[state.clone()], None).expect("written");
+        assert_eq!(saved.frame_count(), 1, "frame 1 is missing");
+        assert_eq!(saved.read(0).expect("read"), [state.clone(), state]);
+        assert_eq!(saved.positions(0, 1).expect("read"), [Vec3::X, Vec3::Y]);
+
+        let path = saved.state_path(0);
+        let bytes = fs::read(&path).expect("there");
+        fs::write(&path, &bytes[..bytes.len() - 3]).expect("cut short");
+        assert!(saved.read(0).is_err_and(|e| e.to_string().contains("damaged")));
+        saved.remove().expect("removed");
+        assert!(told(true, "a").is_err());
+    }
+}

@@ -1,0 +1,198 @@
+//! Garments that walk together on a moving body.
+
+use crate::{Colliders, Error, Simulation};
+use glam::Vec3;
+use std::sync::Arc;
+use toile_gpu::{BodyMaps, MovingBody, Surface, Trail};
+use toile_model::{MapFrame, Model, StepSettings};
+use toile_scene::MovingMesh;
+
+/// Bounds of a body are looked up in a table of so many per second [1/s].
+const BOUNDS_RATE: f64 = 60.0;
+/// What the table adds on every side [m]: a body goes no farther between two of its times, and inner garments hang out of it.
+const BOUNDS_MARGIN: f32 = 0.03;
+/// What is added around a body for the garments that lie under another one [m].
+const GARMENT_MARGIN: f32 = 0.25;
+
+/// Where the maps of a moving body stand: as large as the body ever needs, around where it is.
+#[derive(Clone, Debug)]
+pub struct MovingFrame {
+    bounds: Vec<[Vec3; 2]>,
+    is_closed: bool,
+    margin: f32,
+    texel: f32,
+    size: [u32; 2],
+}
+
+impl MovingFrame {
+    /// The frames of a body with texels of the edge length `texel` [m], and `thickness` of cloth around it [m]; `layered` when
+    /// garments show in the maps too.
+    pub fn new(body: &MovingMesh, texel: f32, thickness: f32, layered: bool) -> Self {
+        let count = (body.duration() * BOUNDS_RATE).ceil() as u32 + 1;
+        let bounds = body.bounds((0..count).map(|index| f64::from(index) / BOUNDS_RATE));
+        let margin = thickness + BOUNDS_MARGIN + if layered { GARMENT_MARGIN } else { 0.0 };
+        let mut frame = Self { bounds, is_closed: body.is_closed(), margin, texel, size: [0; 2] };
+        let sizes = (0..count as usize).map(|index| {
+            let [low, high] = frame.between(index);
+            high - low
+        });
+        let largest = sizes.fold(Vec3::ZERO, Vec3::max);
+        frame.size = MapFrame::size_for(largest, texel);
+        frame
+    }
+
+    /// The frame at a time [s].
+    pub fn at(&self, time: f64) -> MapFrame {
+        let end = (self.bounds.len() - 1) as f64 / BOUNDS_RATE;
+        let time = if self.is_closed && end > 0.0 { time.rem_euclid(end) } else { time.clamp(0.0, end) };
+        MapFrame::moving(self.between((time * BOUNDS_RATE) as usize), self.texel, self.size)
+    }
+
+    /// The box around the body from one time of the table to the next.
+    fn between(&self, index: usize) -> [Vec3; 2] {
+        let [a, b] = [self.bounds[index.min(self.bounds.len() - 1)], self.bounds[(index + 1).min(self.bounds.len() - 1)]];
+        [a[0].min(b[0]) - self.margin, a[1].max(b[1]) + self.margin]
+    }
+}
+
+/// Garments that walk together on a moving body: each collides with the body and with the garments under it.
+#[derive(Debug)]
+pub struct Outfit {
+    body: MovingBody,
+    frame: MovingFrame,
+    thickness: f32,
+    maps_per_frame: u32,
+    time: f64,
+    garments: Vec<Garment>,
+}
+
+#[derive(Debug)]
+struct Garment {
+    simulation: Simulation,
+    maps: Arc<BodyMaps>,
+    /// What the maps of later garments draw of this one.
+    surface: Surface,
+    trail: Trail,
+}
+
+impl Outfit {
+    /// An outfit at the first pose of a body, whose garments begin at rest where their models have them; to begin elsewhere,
+    /// write into the buffers of [`Outfit::garments`]. Garments come from the inside out, and all have the same settings of
+    /// frame, step and thickness. The maps are drawn `maps_per_frame` times in each frame.
+    ///
+    /// # Errors
+    /// [`Error::Gpu`] when body, maps or a garment do not fit the device.
+    ///
+    /// # Panics
+    /// When the steps of a frame are not a multiple of `maps_per_frame`.
+    pub fn new(
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        body: &MovingMesh,
+        garments: &[(&Model, StepSettings)],
+        texel: f32,
+        maps_per_frame: u32,
+    ) -> Result<Self, Error> {
+        let thickness = garments.iter().map(|(_, settings)| settings.thickness).fold(0.0, f32::max);
+        let frame = MovingFrame::new(body, texel, thickness, garments.len() > 1);
+        let mut moving = MovingBody::new(device, body)?;
+        moving.record_pose(device, encoder, 0.0);
+        let garments = garments
+            .iter()
+            .map(|(model, settings)| {
+                let steps = settings.steps_per_frame;
+                assert!(maps_per_frame > 0 && steps % maps_per_frame == 0, "{steps} steps, {maps_per_frame} maps");
+                let maps = Arc::new(BodyMaps::new(device, frame.at(0.0), true)?);
+                let colliders = Colliders { maps: Some(maps.clone()), sphere: None };
+                let simulation = Simulation::new(device, model, settings, colliders)?;
+                let drawn = simulation.frame();
+                let trail = Trail::new(device, &drawn.positions, drawn.particle_count);
+                let surface = Surface { velocities: Some(trail.velocities().clone()), ..Surface::from(drawn) };
+                Ok(Garment { simulation, maps, surface, trail })
+            })
+            .collect::<Result<_, Error>>()?;
+        Ok(Self { body: moving, frame, thickness, maps_per_frame, time: 0.0, garments })
+    }
+
+    /// Goes to a time without simulating: the body takes the pose of then [s].
+    pub fn record_start(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, time: f64) {
+        self.body.record_pose(device, encoder, time);
+        self.time = time;
+    }
+
+    /// Records one frame of `seconds`: the body moves on, and every garment after it.
+    pub fn record(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, seconds: f64) {
+        let interval = seconds / f64::from(self.maps_per_frame);
+        let start = self.time;
+        for index in 0..self.maps_per_frame {
+            self.record_pose(device, encoder, start + interval * f64::from(index + 1));
+            self.record_steps(device, encoder, interval);
+        }
+        self.record_outputs(encoder);
+    }
+
+    /// Records the next pose of the body [s], and what every garment sees of it.
+    pub fn record_pose(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, time: f64) {
+        self.time = time;
+        self.body.record_pose(device, encoder, time);
+        let frame = self.frame.at(time);
+        for garment in &self.garments {
+            garment.maps.record(device, encoder, frame, &[(self.body.surface(), self.thickness)]);
+        }
+    }
+
+    /// Records the steps of all garments up to the pose of the body, which it took `interval` after the pose before [s].
+    pub fn record_steps(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, interval: f64) {
+        for index in 0..self.garments.len() {
+            let (inner, outer) = self.garments.split_at_mut(index);
+            let garment = &mut outer[0];
+            if !inner.is_empty() {
+                // The inner garments have gone to the same time already.
+                let surfaces: Vec<_> = inner.iter().map(|inner| (&inner.surface, self.thickness)).collect();
+                garment.maps.record_over(device, encoder, &surfaces);
+            }
+            let steps = garment.simulation.settings().steps_per_frame / self.maps_per_frame;
+            garment.trail.record_leaving(encoder);
+            garment.simulation.record_steps(device, encoder, steps);
+            garment.trail.record_arrival(device, encoder, interval);
+        }
+    }
+
+    /// Records normals and status of all garments.
+    pub fn record_outputs(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        for garment in &mut self.garments {
+            garment.simulation.record_outputs(encoder);
+        }
+    }
+
+    /// The garments, from the inside out.
+    pub fn garments(&self) -> impl ExactSizeIterator<Item = &Simulation> {
+        self.garments.iter().map(|garment| &garment.simulation)
+    }
+
+    /// The garments, from the inside out.
+    pub fn garments_mut(&mut self) -> impl ExactSizeIterator<Item = &mut Simulation> {
+        self.garments.iter_mut().map(|garment| &mut garment.simulation)
+    }
+
+    /// The body on the device, as the maps draw it.
+    pub fn body(&self) -> &Surface {
+        self.body.surface()
+    }
+
+    /// The maps that a garment collides with, from the inside out.
+    pub fn maps(&self) -> impl ExactSizeIterator<Item = &BodyMaps> {
+        self.garments.iter().map(|garment| garment.maps.as_ref())
+    }
+
+    /// Time in the motion of the body [s].
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Bytes on the device.
+    pub fn bytes(&self) -> u64 {
+        let garments = self.garments.iter().map(|garment| garment.simulation.bytes() + garment.trail.bytes());
+        self.body.bytes() + garments.sum::<u64>()
+    }
+}
