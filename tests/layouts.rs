@@ -10,8 +10,24 @@ use toile_workspace::{Compute, gpu};
 macro_rules! for_every_struct {
     ($call:ident) => {
         $call!(
-            StepParams, Span, LinkSpring, Limit, SeamPair, Hold, Midpoint, Probe, Contact, MapFrame, Side, Ball, Lag, Vertices,
-            Displacement, Influence, Joint, Status
+            StepParams,
+            Span,
+            LinkSpring,
+            Limit,
+            SeamPair,
+            Hold,
+            Midpoint,
+            Probe,
+            Contact,
+            MapFrame,
+            Side,
+            Ball,
+            Lag,
+            Vertices,
+            Displacement,
+            Influence,
+            Joint,
+            Status
         )
     };
 }

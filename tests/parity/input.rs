@@ -142,9 +142,9 @@ impl Inputs for Input {
             "morphed_positions" => padded(&self.body.morphed_positions, 1.0),
             "morphed_normals" => padded(&self.body.morphed_normals, 0.0),
             "influence_offsets" => words(&self.skin.influence_offsets),
-            "influences" => array(
-                self.skin.influences.iter().map(|i| structs::Influence { joint: i.joint, weight: i.weight }),
-            ),
+            "influences" => {
+                array(self.skin.influences.iter().map(|i| structs::Influence { joint: i.joint, weight: i.weight }))
+            }
             "joints" => bytemuck::cast_slice(&self.pose.joints).to_vec(),
             "body_positions" | "surface_positions" => padded(&self.body.positions, 1.0),
             "body_normals" => padded(&self.body.normals, 0.0),

@@ -34,8 +34,7 @@ pub fn reference(kernel: Kernel, input: &mut Input) {
         }
         Kernel::SampleMaps => {
             let [positions, velocities] = before.points();
-            input.probes =
-                step::sample_maps(&positions, &velocities, &before.layers.read, Lag::default(), settings);
+            input.probes = step::sample_maps(&positions, &velocities, &before.layers.read, Lag::default(), settings);
         }
         Kernel::SampleMovingMaps => {
             let [positions, velocities] = before.points();

@@ -3,8 +3,8 @@
 use crate::input::{Input, Posed};
 use glam::{Vec3, Vec4, vec3};
 use std::sync::OnceLock;
-use toile_kernels::{Domain, Kernel, TABLE};
 use toile_gpu::Surface;
+use toile_kernels::{Domain, Kernel, TABLE};
 use toile_model::{Csr, Hold, Limit, Link, MapFrame, Model, NO_CORNER, SeamPair, StepSettings};
 use toile_reference::{Ball, Contact, Lag, Midpoints, Particles, Probe};
 use toile_scene::{Displacement, Friction, Influence, Morphs, Pose, Skin};
@@ -135,7 +135,9 @@ fn step_settings(variant: Variant) -> StepSettings {
             gravity: vec3(0.3, -9.81, 0.1),
             ..base
         },
-        Variant::Weightless => StepSettings { gravity: Vec3::ZERO, law: Friction::Coulomb, reflection: 0.1, swept: false, ..base },
+        Variant::Weightless => {
+            StepSettings { gravity: Vec3::ZERO, law: Friction::Coulomb, reflection: 0.1, swept: false, ..base }
+        }
     }
 }
 
@@ -294,15 +296,14 @@ fn moving_layers() -> &'static Layers {
     static LAYERS: OnceLock<Layers> = OnceLock::new();
     LAYERS.get_or_init(|| {
         let random = &mut Random::new(7);
-        let surfaces = [
-            uv_sphere(vec3(-0.05, 0.0, 0.0), 0.4, 16),
-            box_mesh(vec3(0.0, -0.45, -0.55), vec3(0.25, 0.1, -0.1)),
-        ]
-        .map(|mesh| {
-            let velocities: Vec<Vec4> = mesh.positions.iter().map(|_| random.vector(2.0).extend(0.0)).collect();
-            let buffer = gpu().upload(bytemuck::cast_slice(&velocities), wgpu::BufferUsages::VERTEX);
-            Surface { velocities: Some(buffer), ..Surface::new(&gpu().device, &mesh) }
-        });
+        let surfaces =
+            [uv_sphere(vec3(-0.05, 0.0, 0.0), 0.4, 16), box_mesh(vec3(0.0, -0.45, -0.55), vec3(0.25, 0.1, -0.1))].map(
+                |mesh| {
+                    let velocities: Vec<Vec4> = mesh.positions.iter().map(|_| random.vector(2.0).extend(0.0)).collect();
+                    let buffer = gpu().upload(bytemuck::cast_slice(&velocities), wgpu::BufferUsages::VERTEX);
+                    Surface { velocities: Some(buffer), ..Surface::new(&gpu().device, &mesh) }
+                },
+            );
         let frame = MapFrame::around([vec3(-0.47, -0.47, -0.57), vec3(0.37, 0.42, 0.42)], 0.031);
         Layers::draw_surfaces(gpu(), &[(&surfaces[0], 0.005), (&surfaces[1], 0.01)], frame)
     })
@@ -312,7 +313,8 @@ fn moving_layers() -> &'static Layers {
 fn body(random: &mut Random, vertices: u32) -> (Skin, Pose, Posed) {
     const JOINTS: u32 = 7;
     const TARGETS: u32 = 3;
-    let vectors = |random: &mut Random, largest: f32| -> Vec<Vec3> { (0..vertices).map(|_| random.vector(largest)).collect() };
+    let vectors =
+        |random: &mut Random, largest: f32| -> Vec<Vec3> { (0..vertices).map(|_| random.vector(largest)).collect() };
     let mut skin = Skin {
         positions: vectors(random, 1.0),
         normals: (0..vertices).map(|_| random.direction()).collect(),
@@ -323,9 +325,8 @@ fn body(random: &mut Random, vertices: u32) -> (Skin, Pose, Posed) {
     for vertex in 0..vertices {
         // A vertex on no joint has no matrix, and so a normal without length.
         let joints = if vertex % 40 == 9 { 0 } else { 1 + random.below(5) };
-        skin.influences.extend(
-            (0..joints).map(|_| Influence { joint: random.below(JOINTS), weight: random.between(0.0, 1.0) }),
-        );
+        skin.influences
+            .extend((0..joints).map(|_| Influence { joint: random.below(JOINTS), weight: random.between(0.0, 1.0) }));
         skin.influence_offsets.push(skin.influences.len() as u32);
         let targets = random.below(TARGETS);
         morphs.displacements.extend((0..targets).map(|target| Displacement {

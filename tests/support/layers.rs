@@ -42,19 +42,13 @@ impl Layers {
         let moving = surfaces.iter().any(|(surface, _)| surface.velocities.is_some());
         let maps = BodyMaps::new(&gpu.device, frame, moving).unwrap_or_else(|error| panic!("{error}"));
         gpu.run(|encoder| maps.record(&gpu.device, encoder, frame, surfaces));
-        let read = read(gpu, &maps, frame);
+        let read = read_maps(gpu, &maps, frame);
         Self { maps: Arc::new(maps), read }
-    }
-
-    /// The same maps with other bodies in them.
-    pub fn redraw(&mut self, gpu: &Gpu, surfaces: &[(&Surface, f32)], frame: MapFrame) {
-        gpu.run(|encoder| self.maps.record(&gpu.device, encoder, frame, surfaces));
-        self.read = read(gpu, &self.maps, frame);
     }
 }
 
 /// The texels of maps that show the bodies in `frame`.
-fn read(gpu: &Gpu, maps: &BodyMaps, frame: MapFrame) -> toile_reference::maps::BodyMaps {
+pub fn read_maps(gpu: &Gpu, maps: &BodyMaps, frame: MapFrame) -> toile_reference::maps::BodyMaps {
     toile_reference::maps::BodyMaps {
         frame,
         depth: readback::read_depth(&gpu.device, &gpu.queue, maps).expect("the device answers"),

@@ -15,7 +15,7 @@ pub use compute::Compute;
 pub use drive::{advance, arrived, finish_frame};
 pub use fixtures::{GARMENTS, SCENES, body, fixture, garment, scene, settings, sheet_settings};
 pub use gpu::{Gpu, INSTALL_HINT, gpu};
-pub use layers::Layers;
+pub use layers::{Layers, read_maps};
 pub use random::Random;
 pub use run::{Compiled, Inputs};
 pub use shapes::{box_mesh, uv_sphere, without_triangles};

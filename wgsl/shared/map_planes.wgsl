@@ -74,6 +74,17 @@ fn standing(place: vec3<f32>) -> i32 {
     return INSIDE;
 }
 
+// A place moved to the centre of its texel: drivers round a place between two others each in their own way, but the centre is
+// the same.
+fn centred(place: vec3<f32>) -> vec3<f32> {
+    let texel = floor(texels_of(place)) + 0.5;
+    return vec3<f32>(
+        map_frame.origin_x + texel.x * map_frame.texel,
+        map_frame.origin_y - texel.y * map_frame.texel,
+        place.z,
+    );
+}
+
 // Where the way of a point enters a surface, and from which side; its end and INSIDE when it does not.
 struct Entry {
     place: vec3<f32>,
@@ -87,14 +98,24 @@ fn entry_of(start: vec3<f32>, end: vec3<f32>) -> Entry {
     }
     var before = standing(start);
     if before == INSIDE {
+        // It may lie on the surface: it must not leave by the other side.
+        let column = column_under(start);
+        let after = standing(end);
+        let near_front = column.front - start.z <= start.z - column.back;
+        if near_front && after == BACK {
+            return Entry(start, FRONT);
+        }
+        if !near_front && after == FRONT {
+            return Entry(start, BACK);
+        }
         return unanswered;
     }
     let way = end - start;
     let places = clamp(ceil(length(way.xy) / map_frame.texel), 1.0, WAY_PLACES);
     for (var k = 1.0; k <= places; k += 1.0) {
-        var place = start + way * (k / places);
-        if k == places {
-            place = end;
+        var place = end;
+        if k < places {
+            place = centred(start + way * (k / places));
         }
         let now = standing(place);
         let through = (before == FRONT && now == BACK) || (before == BACK && now == FRONT);

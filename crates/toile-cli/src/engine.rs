@@ -82,7 +82,11 @@ impl Computer {
             Computer::Reference => {
                 let surfaces: Vec<_> = layers
                     .iter()
-                    .map(|layer| reference_maps::Surface { mesh: &layer.mesh, thickness: layer.thickness, velocities: None })
+                    .map(|layer| reference_maps::Surface {
+                        mesh: &layer.mesh,
+                        thickness: layer.thickness,
+                        velocities: None,
+                    })
                     .collect();
                 let maps = (!surfaces.is_empty()).then(|| render_maps(&surfaces, texel));
                 let colliders = toile_reference::Colliders { maps, sphere };

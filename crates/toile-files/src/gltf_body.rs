@@ -109,13 +109,15 @@ fn add_skin(file: &GltfFile, skin: &gltf::Skin<'_>, skeleton: &mut Skeleton) -> 
         let message = format!("{} matrices for {} joints", inverse_bind.len(), nodes.len());
         return Err(Found::malformed(Place::Accessor(accessor.index()), message));
     }
-    let joint = |(node, bind): (&gltf::Node<'_>, &[f32; 16])| {
-        skeleton.add_joint(node, Mat4::from_cols_array(bind).as_dmat4())
-    };
+    let joint =
+        |(node, bind): (&gltf::Node<'_>, &[f32; 16])| skeleton.add_joint(node, Mat4::from_cols_array(bind).as_dmat4());
     Ok(nodes.iter().zip(&inverse_bind).map(joint).collect())
 }
 
-#[expect(clippy::too_many_arguments, reason = "what a primitive is read with comes from its node, its skin and its mesh")]
+#[expect(
+    clippy::too_many_arguments,
+    reason = "what a primitive is read with comes from its node, its skin and its mesh"
+)]
 fn add_primitive(
     file: &GltfFile,
     primitive: &gltf::Primitive<'_>,

@@ -160,7 +160,9 @@ fn read_keys(file: &GltfFile, sampler: &gltf::animation::Sampler<'_>, width: usi
     let times = file.read::<1>(&sampler.input(), Dimensions::Scalar)?;
     let output = sampler.output();
     let values: Vec<f64> = match output.dimensions() {
-        Dimensions::Scalar => file.read::<1>(&output, Dimensions::Scalar)?.iter().flatten().map(|v| f64::from(*v)).collect(),
+        Dimensions::Scalar => {
+            file.read::<1>(&output, Dimensions::Scalar)?.iter().flatten().map(|v| f64::from(*v)).collect()
+        }
         Dimensions::Vec4 if width == 4 => {
             file.read::<4>(&output, Dimensions::Vec4)?.iter().flatten().map(|v| f64::from(*v)).collect()
         }

@@ -71,10 +71,7 @@ enum Failure {
     Found(Found),
 }
 
-fn write_streamed(
-    path: &Path,
-    write: impl FnOnce(&mut dyn Write) -> Result<(), Failure>,
-) -> Result<(), FileError> {
+fn write_streamed(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<(), Failure>) -> Result<(), FileError> {
     let refuse = |error| Found::from(Fault::Unwritable(error)).in_file(path);
     let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
     let file = tempfile::NamedTempFile::new_in(folder).map_err(refuse)?;
@@ -94,7 +91,9 @@ fn check(points: &[Vec3], count: usize, name: &str, frame: usize) -> Result<(), 
     assert_eq!(points.len(), count, "{name} has as many points in every frame");
     match points.iter().position(|point| !point.is_finite()) {
         None => Ok(()),
-        Some(vertex) => Err(Failure::Found(Fault::NotFinite(format!("position {vertex} of {name} in frame {frame}")).into())),
+        Some(vertex) => {
+            Err(Failure::Found(Fault::NotFinite(format!("position {vertex} of {name} in frame {frame}")).into()))
+        }
     }
 }
 
@@ -192,7 +191,8 @@ mod tests {
         let path = folder.path().join("walk.usda");
         let meshes = [MovingFaces { name: "skirt", triangles: &[[0, 1, 2]], colour: [0.5; 3] }];
         let broken = |frame: usize| if frame == 1 { vec![Vec3::NAN; 3] } else { points(frame) };
-        let error = write_usda(&path, &meshes, 2, 30.0, |_, frame| Ok(broken(frame))).expect_err("not finite").to_string();
+        let error =
+            write_usda(&path, &meshes, 2, 30.0, |_, frame| Ok(broken(frame))).expect_err("not finite").to_string();
         assert!(error.ends_with("position 0 of skirt in frame 1 is not a finite number"), "{error}");
         let error = write_pc2(&folder.path().join("a.pc2"), 3, 2, |frame| Ok(broken(frame))).expect_err("not finite");
         assert!(error.to_string().contains("frame 1"), "{error}");

@@ -62,7 +62,8 @@ pub fn read_mesh_sequence(
         let in_file = |found: Found| found.in_file(path);
         // What the first frame's warnings say holds for all: their faces are the same.
         let mut more = Vec::new();
-        let mesh = obj::read(&bytes).and_then(|soup| soup.clean(options.metres_per_unit, &mut more)).map_err(in_file)?;
+        let mesh =
+            obj::read(&bytes).and_then(|soup| soup.clean(options.metres_per_unit, &mut more)).map_err(in_file)?;
         match &first {
             None => {
                 check_height(&mesh, options.metres_per_unit).map_err(in_file)?;

@@ -166,12 +166,7 @@ impl BodyMaps {
     ///
     /// # Panics
     /// When a surface in maps of moving bodies has no velocities.
-    pub fn record_over(
-        &self,
-        device: &wgpu::Device,
-        encoder: &mut wgpu::CommandEncoder,
-        surfaces: &[(&Surface, f32)],
-    ) {
+    pub fn record_over(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, surfaces: &[(&Surface, f32)]) {
         self.draw(device, encoder, surfaces, false);
     }
 
@@ -283,9 +278,7 @@ impl BodyMaps {
             "map_frame" => Some(self.frame_uniform.as_entire_binding()),
             "depth_map" => Some(wgpu::BindingResource::TextureView(&self.depth.layers)),
             "normal_map" => Some(wgpu::BindingResource::TextureView(&self.normals.layers)),
-            "velocity_map" => {
-                self.velocities.as_ref().map(|map| wgpu::BindingResource::TextureView(&map.layers))
-            }
+            "velocity_map" => self.velocities.as_ref().map(|map| wgpu::BindingResource::TextureView(&map.layers)),
             _ => None,
         }
     }

@@ -50,7 +50,8 @@ impl MovingFrame {
 
     /// The box around the body from one time of the table to the next.
     fn between(&self, index: usize) -> [Vec3; 2] {
-        let [a, b] = [self.bounds[index.min(self.bounds.len() - 1)], self.bounds[(index + 1).min(self.bounds.len() - 1)]];
+        let [a, b] =
+            [self.bounds[index.min(self.bounds.len() - 1)], self.bounds[(index + 1).min(self.bounds.len() - 1)]];
         [a[0].min(b[0]) - self.margin, a[1].max(b[1]) + self.margin]
     }
 }

@@ -69,7 +69,8 @@ fn plans(scene: &Scene) -> Result<Vec<ClothPlan>> {
                 (&garment.name, vec![("open", open), ("sewn", sewn)])
             }
         };
-        let map_bytes = bounds.map_or(0, |b| BodyMaps::bytes_over(&MapFrame::around(b, scene.settings.texel as f32), false));
+        let map_bytes =
+            bounds.map_or(0, |b| BodyMaps::bytes_over(&MapFrame::around(b, scene.settings.texel as f32), false));
         for (state, model) in &models {
             let settings = StepSettings::new(&scene.settings, model);
             let needs = Needs::new(model, &settings, if bounds.is_some() { Maps::Still } else { Maps::None }, sphere);

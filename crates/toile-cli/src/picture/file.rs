@@ -40,11 +40,7 @@ pub fn save_png(path: &Path, image: &RgbImage) -> Result<(), PictureError> {
 ///
 /// # Errors
 /// [`PictureError::Write`] with the path, when a picture cannot be read or the GIF cannot be written.
-pub fn save_gif(
-    path: &Path,
-    pictures: impl Iterator<Item = PathBuf>,
-    frame_rate: f64,
-) -> Result<(), PictureError> {
+pub fn save_gif(path: &Path, pictures: impl Iterator<Item = PathBuf>, frame_rate: f64) -> Result<(), PictureError> {
     write_gif(path, pictures, frame_rate).map_err(|source| PictureError::Write { path: path.to_owned(), source })
 }
 

@@ -90,7 +90,10 @@ impl Saved {
                 );
             }
             if fs::read_to_string(&known)? != identity {
-                bail!("the unfinished walk in {} is another one: give the same options, or name another folder", out.display());
+                bail!(
+                    "the unfinished walk in {} is another one: give the same options, or name another folder",
+                    out.display()
+                );
             }
             return Ok(saved);
         }
@@ -125,7 +128,8 @@ impl Saved {
     pub fn read(&self, frame: u32) -> Result<Vec<GarmentState>> {
         let path = self.state_path(frame);
         let bytes = fs::read(&path).with_context(|| format!("{}: it cannot be read", path.display()))?;
-        let damaged = || format!("{}: it is damaged: delete it, and --resume goes on from the frame before", path.display());
+        let damaged =
+            || format!("{}: it is damaged: delete it, and --resume goes on from the frame before", path.display());
         let mut arrays = Vec::new();
         let mut rest = bytes.as_slice();
         while !rest.is_empty() {

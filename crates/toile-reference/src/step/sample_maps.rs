@@ -119,15 +119,24 @@ impl View<'_> {
 
     /// Where a way enters a surface, and from which side; its end and `Inside` when it does not.
     fn entry(&self, start: Vec3, end: Vec3) -> (Vec3, Standing) {
-        let mut before = self.standing(start);
-        if !self.swept || before == Standing::Inside {
+        if !self.swept {
             return (end, Standing::Inside);
+        }
+        let mut before = self.standing(start);
+        if let (Standing::Inside, Some(texel)) = (before, self.texel_under(start)) {
+            // It may lie on the surface: it must not leave by the other side.
+            let near_front = texel.front - start.z <= start.z - texel.back;
+            return match self.standing(end) {
+                Standing::Behind if near_front => (start, Standing::InFront),
+                Standing::InFront if !near_front => (start, Standing::Behind),
+                _ => (end, Standing::Inside),
+            };
         }
         let way = end - start;
         let places = (way.truncate().length() / self.maps.frame.texel).ceil().clamp(1.0, WAY_PLACES);
         let mut k = 1.0;
         while k <= places {
-            let place = if k == places { end } else { start + way * (k / places) };
+            let place = if k < places { self.centred(start + way * (k / places)) } else { end };
             let now = self.standing(place);
             match (before, now) {
                 (Standing::Beside, Standing::Inside) => return (place, Standing::Inside),
@@ -138,6 +147,14 @@ impl View<'_> {
             k += 1.0;
         }
         (end, Standing::Inside)
+    }
+
+    /// A place moved to the centre of its texel: then a place between two others, which a device may round in its own way, gives
+    /// the same bits everywhere.
+    fn centred(&self, place: Vec3) -> Vec3 {
+        let frame = &self.maps.frame;
+        let [column, row] = texels(frame, place).map(|texels| texels.floor() + 0.5);
+        vec3(frame.origin_x + column * frame.texel, frame.origin_y - row * frame.texel, place.z)
     }
 
     fn standing(&self, place: Vec3) -> Standing {

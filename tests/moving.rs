@@ -1,0 +1,214 @@
+//! Bodies that move: their skin, the velocities in their maps, cloth on them, and cloth that they would pass through.
+
+use glam::{DQuat, DVec3, Vec3, vec3};
+use toile::{MovingFrame, Outfit};
+use toile_gpu::MovingBody;
+use toile_model::{Model, StepSettings};
+use toile_reference::maps::{Surface, render_maps_in, skin_body, vertex_velocities};
+use toile_reference::{Colliders, Reference};
+use toile_scene::{Cloth, Motion, MovingMesh, RigidKey, Rule, Scene};
+use toile_workspace::{Layers, first_difference, fixture, gpu, read_maps, scene, uv_sphere, vec3_words};
+
+fn walking(clip: &str) -> MovingMesh {
+    let options = toile::files::BodyOptions { clip: Some(clip.to_owned()), ..Default::default() };
+    let path = fixture("bodies/walking_woman.glb");
+    toile::files::read_moving_body(&path, &options).unwrap_or_else(|error| panic!("{error}")).body
+}
+
+fn sheet(n: &str) -> (Model, Scene) {
+    let ball = scene("ball", &[("n", n), ("sheet.0.corner", "[-0.5, 0.256, 0.5]")]);
+    let Cloth::Sheet(sheet) = &ball.cloths[0] else { panic!("the scene has a sheet") };
+    (Model::from_sheet(sheet, &ball.settings), ball)
+}
+
+/// A sphere of the scene's size that goes along x at 1 m/s and turns.
+fn rolling_ball() -> MovingMesh {
+    let key = |time: f64| RigidKey {
+        time,
+        translation: DVec3::new(time, 0.1 * time, 0.0),
+        rotation: DQuat::from_rotation_z(-2.0 * time),
+    };
+    MovingMesh::rigid(&uv_sphere(Vec3::ZERO, 0.25, 48), &[key(0.0), key(0.5), key(1.0)])
+}
+
+#[test]
+fn the_device_skins_the_walking_woman_bit_for_bit() {
+    let woman = walking("walk_loop");
+    let Motion::Skinned { skin, rig } = &woman.motion else { panic!("the woman has joints") };
+    let mut body = MovingBody::new(&gpu().device, &woman).expect("it fits the device");
+    let mut last: Option<Vec<Vec3>> = None;
+    for (index, time) in [0.0, 0.02, 0.04].into_iter().enumerate() {
+        gpu().run(|encoder| body.record_pose(&gpu().device, encoder, time));
+        let [positions, normals] = skin_body(&skin.positions, &skin.normals, skin, &rig.pose(time).joints);
+        let rate = if index == 0 { 0.0 } else { (1.0 / (time - 0.02 * (index as f64 - 1.0))) as f32 };
+        let velocities = vertex_velocities(last.as_ref().unwrap_or(&positions), &positions, rate);
+        let surface = body.surface();
+        let vertex_count = positions.len();
+        let device = |buffer| vec3_words(&gpu().vec3s(buffer)[..vertex_count]);
+        let same = |buffer, reference: &[Vec3]| first_difference(&device(buffer), &vec3_words(reference));
+        assert!(same(&surface.positions, &positions).is_none(), "positions at {time} s");
+        assert!(same(&surface.normals, &normals).is_none(), "normals at {time} s");
+        let buffer = surface.velocities.as_ref().expect("a moving body has velocities");
+        if index == 0 {
+            assert!(gpu().vec3s(buffer).iter().all(|velocity| *velocity == Vec3::ZERO), "the first pose stands still");
+        } else if let Some(fault) = same(buffer, &velocities) {
+            panic!("velocities at {time} s: {fault}");
+        }
+        // f32 against f64: a few roundings of coordinates up to 2 m.
+        let exact = woman.at(time);
+        let far = positions.iter().zip(&exact.positions).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
+        assert!(far < 3e-6, "{far} m at {time} s");
+        last = Some(positions);
+    }
+}
+
+#[test]
+fn the_velocity_map_shows_how_a_turning_body_moves() {
+    let ball = rolling_ball();
+    let frame = MovingFrame::new(&ball, 0.01, 0.0, false).at(0.2);
+    let mut body = MovingBody::new(&gpu().device, &ball).expect("it fits the device");
+    gpu().run(|encoder| {
+        body.record_pose(&gpu().device, encoder, 0.199);
+        body.record_pose(&gpu().device, encoder, 0.2);
+    });
+    let maps = Layers::draw_surfaces(gpu(), &[(body.surface(), 0.0)], frame).read;
+    let layers = maps.velocities.as_ref().expect("a moving body");
+    let mut seen = 0;
+    for (side, (depth, velocities)) in maps.depth.iter().zip(layers).enumerate() {
+        for (texel, velocity) in velocities.iter().enumerate().filter(|(texel, _)| depth[*texel] < 1.0) {
+            let [column, row] = [texel % frame.columns as usize, texel / frame.columns as usize];
+            let x = frame.origin_x + (column as f32 + 0.5) * frame.texel - 0.2;
+            let y = frame.origin_y - (row as f32 + 0.5) * frame.texel - 0.02;
+            // v + ω × r with ω = −2 rad/s around z.
+            let expected = vec3(1.0 + 2.0 * y, 0.1 - 2.0 * x, 0.0);
+            // Vertices go along chords, and the texel shows the last millisecond: 2 rad/s · 0.5 ms · 0.5 m/s.
+            assert!(velocity.distance(expected) < 3e-3, "side {side}, ({x}, {y}): {velocity}, not {expected}");
+            seen += 1;
+        }
+    }
+    assert!(seen > 3000, "{seen} texels");
+}
+
+#[test]
+fn whole_frames_on_a_moving_body_agree() {
+    let ball = rolling_ball();
+    let (model, scene) = sheet("24");
+    let settings = StepSettings::new(&scene.settings, &model);
+    let (maps_per_frame, texel) = (2, 0.01);
+    let frames = MovingFrame::new(&ball, texel, settings.thickness, false);
+    let device = &gpu().device;
+    let mut outfit = None;
+    gpu().run(|encoder| {
+        let garments = [(&model, settings.clone())];
+        outfit = Some(Outfit::new(device, encoder, &ball, &garments, texel, maps_per_frame).expect("it fits"));
+    });
+    let mut outfit = outfit.expect("it was made");
+    let drawn =
+        |outfit: &Outfit, time| read_maps(gpu(), outfit.maps().next().expect("a garment has maps"), frames.at(time));
+    let mut reference: Option<Reference> = None;
+    let interval = 1.0 / (60.0 * f64::from(maps_per_frame));
+    let mut contacts = 0;
+    for index in 1..=24 {
+        let time = interval * f64::from(index);
+        gpu().run(|encoder| outfit.record_pose(device, encoder, time));
+        let maps = drawn(&outfit, time);
+        assert!(maps.velocities.as_ref().is_some_and(|layers| layers[0].iter().any(|v| v.x > 0.5)));
+        let reference = reference.get_or_insert_with(|| {
+            Reference::new(&model, &settings, Colliders { maps: Some(maps.clone()), sphere: None })
+        });
+        reference.set_maps(maps);
+        gpu().run(|encoder| outfit.record_steps(device, encoder, interval));
+        reference.steps(settings.steps_per_frame / maps_per_frame);
+        let simulation = outfit.garments().next().expect("a garment");
+        let positions = vec3_words(&gpu().vec3s(&simulation.frame().positions));
+        let fault = first_difference(&positions, &vec3_words(reference.positions()));
+        assert!(fault.is_none(), "interval {index}: {}", fault.expect("there is one"));
+        contacts = contacts.max(reference.contacts().iter().filter(|contact| contact.touching).count());
+    }
+    assert!(contacts > 3, "{contacts} contacts");
+    let carried: f32 = reference.expect("it ran").velocities().iter().map(|v| v.x).sum();
+    assert!(carried > 0.0, "the ball takes the cloth along");
+}
+
+/// The maps of a body between two poses, extrapolated from those of the later one, put the surface where it is.
+#[test]
+fn a_surface_between_two_poses_is_where_its_velocity_says() {
+    let ball = rolling_ball();
+    let interval = 1.0 / 60.0;
+    let frame = MovingFrame::new(&ball, 0.005, 0.0, false).at(0.3);
+    let [before, after] = [ball.at(0.3 - interval), ball.at(0.3)];
+    let velocities = vertex_velocities(&before.positions, &after.positions, (1.0 / interval) as f32);
+    let surface = Surface { mesh: &after, thickness: 0.0, velocities: Some(&velocities) };
+    let maps = render_maps_in(&[surface], frame);
+    let settings = StepSettings { swept: true, ..StepSettings::new(&sheet("4").1.settings, &Model::default()) };
+    let mut worst: [f32; 2] = [0.0; 2];
+    for (share, step) in [(0.0, 0), (0.5, 8), (0.95, 15)] {
+        let time = 0.3 - interval * (1.0 - share);
+        let centre = vec3(time as f32, 0.1 * time as f32, 0.0);
+        for turn in 0..64 {
+            let (sin, cos) = (turn as f32 * 0.09817).sin_cos();
+            let direction = vec3(0.6 * cos, 0.6 * sin, if turn % 2 == 0 { 0.8 } else { -0.8 });
+            let point = centre + direction * 0.26;
+            let lag = toile_reference::Lag::of(step, 16, interval as f32 / 16.0);
+            let lag = toile_reference::Lag { start: (interval * (1.0 - share)) as f32, ..lag };
+            let still = toile_reference::Lag::default();
+            let probe = |lag| toile_reference::step::sample_maps(&[point], &[Vec3::ZERO], &maps, lag, &settings)[0];
+            worst[0] = worst[0].max((probe(lag).distance - 0.01).abs());
+            worst[1] = worst[1].max((probe(still).distance - 0.01).abs());
+        }
+    }
+    // The sphere of 48 rings is flatter than a sphere by 0.5 mm; a texel's plane adds the rest. Without extrapolation the
+    // surface would be off by up to 17 mm.
+    assert!(worst[0] < 0.002, "{} m with extrapolation", worst[0]);
+    assert!(worst[1] > 0.005, "{} m without", worst[1]);
+}
+
+/// How many particles of a free upright sheet a ball of radius 0.1 m has passed through when it is 0.3 m beyond. Its maps are
+/// drawn once per frame of 1/60 s.
+fn passed(speed: f64, swept: bool) -> usize {
+    let mut scene = scene("hang", &[("n", "24")]);
+    scene.settings.gravity = DVec3::ZERO;
+    // Limits would tear the cloth off the ball at such speeds.
+    scene.settings.velocity_modification.rule = Rule::None;
+    let Cloth::Sheet(sheet) = &mut scene.cloths[0] else { panic!("the scene has a sheet") };
+    sheet.pins.clear();
+    sheet.down = -DVec3::Y;
+    let middle = sheet.corner + 0.5 * (sheet.right * sheet.size.x + sheet.down * sheet.size.y);
+    let model = Model::from_sheet(sheet, &scene.settings);
+    let mut settings = StepSettings::new(&scene.settings, &model);
+    settings.swept = swept;
+    let start = middle - DVec3::Z * 0.5;
+    let end = 0.8 / speed;
+    let key = |time: f64| RigidKey { time, translation: start + DVec3::Z * speed * time, rotation: DQuat::IDENTITY };
+    let ball = MovingMesh::rigid(&uv_sphere(Vec3::ZERO, 0.1, 24), &[key(0.0), key(1.0)]);
+    let interval = f64::from(settings.dt) * f64::from(settings.steps_per_frame);
+    let mut reference: Option<Reference> = None;
+    let mut time = 0.0;
+    while time < end {
+        let [before, after] = [ball.at(time), ball.at(time + interval)];
+        time += interval;
+        let velocities = vertex_velocities(&before.positions, &after.positions, (1.0 / interval) as f32);
+        let surface = Surface { mesh: &after, thickness: settings.thickness, velocities: Some(&velocities) };
+        let maps = render_maps_in(&[surface], MovingFrame::new(&ball, 0.01, settings.thickness, false).at(time));
+        let colliders = Colliders { maps: Some(maps.clone()), sphere: None };
+        let reference = reference.get_or_insert_with(|| Reference::new(&model, &settings, colliders));
+        reference.set_maps(maps);
+        reference.steps(settings.steps_per_frame);
+    }
+    let centre = (start + DVec3::Z * speed * time).as_vec3();
+    // Those that were in its way: the edges of the sheet close behind the ball.
+    let in_the_way = |p: &Vec3| p.truncate().distance(centre.truncate()) < 0.06;
+    let pairs = model.positions.iter().zip(reference.expect("it ran").positions().to_vec());
+    pairs.filter(|(start, end)| in_the_way(start) && end.z < centre.z).count()
+}
+
+#[test]
+fn a_fast_body_takes_the_cloth_along() {
+    for speed in [5.0, 50.0, 150.0, 400.0] {
+        assert_eq!(passed(speed, true), 0, "{speed} m/s");
+    }
+    // Without the test of the whole way, a point that is deeper than the middle of the ball after one step is pushed out behind
+    // it: from radius / dt on, which is 96 m/s.
+    assert_eq!(passed(100.0, false), 0);
+    assert!(passed(120.0, false) > 0);
+}
