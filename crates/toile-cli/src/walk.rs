@@ -124,7 +124,7 @@ fn simulate(walk: &Walk, gpu: &Gpu, walkers: &[Walker], saved: &Saved, running: 
     let regions = Regions::new(&walk.body);
     let progress = progress(walk.frame_count, done, running.quiet);
     for frame in done + 1..=walk.frame_count {
-        interrupt::check().context("go on with --resume")?;
+        interrupt::check().context("interrupted: every frame so far is kept, go on with --resume")?;
         let start = Instant::now();
         let time = f64::from(frame - 1) * seconds;
         let interval = seconds / f64::from(maps_per_frame);

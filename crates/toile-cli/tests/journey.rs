@@ -332,3 +332,49 @@ fn an_outer_garment_lies_over_an_inner_one_by_the_reference_too() {
     check_dressed(&metrics);
     assert_eq!(metrics["cloths"].as_array().map(Vec::len), Some(2));
 }
+
+/// A walk that ctrl-c ended goes on and ends in the same bytes as one that was never interrupted.
+#[cfg(target_os = "linux")]
+#[test]
+fn an_interrupted_walk_goes_on_bit_for_bit() {
+    use std::process::Stdio;
+    use std::time::{Duration, Instant};
+
+    let journey = Journey::new();
+    let skirt = fixture("garments/skirt.json");
+    let walk = |out: &'static str, more: &[&'static str]| {
+        let options = ["walk", "--garment", &skirt, "--spacing", "4cm", "--texel", "1cm", "--seconds", "0.2", "--quiet"];
+        journey.command(&[&options[..], &["--out", out], more].concat())
+    };
+    good(walk("whole", &[]).output().expect("the program runs"));
+
+    let child = walk("halves", &[]).stderr(Stdio::piped()).stdout(Stdio::piped()).spawn().expect("the program starts");
+    let second = journey.folder.path().join("halves/.unfinished-walk/000002.state");
+    let start = Instant::now();
+    while !second.exists() {
+        assert!(start.elapsed() < Duration::from_secs(300), "the walk does not get to its second frame");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill runs");
+    assert!(sent.success());
+    let output = child.wait_with_output().expect("the program ends");
+    assert_eq!(output.status.code(), Some(130), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(!journey.folder.path().join("halves/walk.usda").exists(), "it was interrupted before its end");
+    assert!(refused(walk("halves", &[]).output().expect("it runs")).contains("--resume"));
+    assert!(refused(walk("whole", &["--resume"]).output().expect("it runs")).contains("no unfinished walk"));
+
+    good(walk("halves", &["--resume"]).output().expect("the program runs"));
+    for file in ["walk.usda", "0_skirt.pc2", "walk.gif", "frame_0006.png"] {
+        let [whole, halves] = ["whole", "halves"].map(|folder| fs::read(journey.folder.path().join(folder).join(file)));
+        assert!(whole.expect("it was written") == halves.expect("it was written"), "{file} differs");
+    }
+    let metrics = journey.metrics("whole");
+    let frames = list(&metrics["frames"]);
+    assert_eq!(frames.len(), 6);
+    for row in frames {
+        assert_eq!(row["non_finite_count"], 0);
+        assert!(row["penetration_max_mm"].as_f64().is_some_and(|depth| depth < 10.0), "{row}");
+        assert!(row["penetration_p99_mm"].as_f64().is_some_and(|depth| depth < 2.0), "{row}");
+    }
+    assert_eq!(journey.names("whole").len(), 10, "six frames, a GIF, USD, PC2 and metrics");
+}

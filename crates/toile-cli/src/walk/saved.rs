@@ -81,7 +81,8 @@ impl Saved {
         let folder = out.join(FOLDER);
         let saved = Self { folder };
         let known = saved.folder.join(IDENTITY);
-        if known.exists() {
+        // Before its first frame there is nothing to lose.
+        if known.exists() && saved.frame_count() > 0 {
             if !resume {
                 bail!(
                     "{} holds an unfinished walk: go on with --resume, name another folder, or delete {}",
@@ -191,12 +192,12 @@ mod tests {
         let told = |resume, identity| Saved::open(out.path(), identity, resume).map(|_| ()).map_err(|e| e.to_string());
         assert!(told(true, "a").is_err_and(|e| e.contains("no unfinished walk")));
         let saved = Saved::open(out.path(), "a", false).expect("a new walk");
+        let state = GarmentState::at_rest(&[Vec3::X, Vec3::Y]);
+        saved.write(0, &[state.clone(), state.clone()], None).expect("written");
         assert!(told(false, "a").is_err_and(|e| e.contains("--resume")), "nothing is overwritten");
         assert!(told(true, "b").is_err_and(|e| e.contains("another one")));
         assert_eq!(told(true, "a"), Ok(()));
 
-        let state = GarmentState::at_rest(&[Vec3::X, Vec3::Y]);
-        saved.write(0, &[state.clone(), state.clone()], None).expect("written");
         saved.write(2, &[state.clone()], None).expect("written");
         assert_eq!(saved.frame_count(), 1, "frame 1 is missing");
         assert_eq!(saved.read(0).expect("read"), [state.clone(), state]);
