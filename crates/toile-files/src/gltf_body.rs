@@ -15,7 +15,7 @@ use toile_scene::{Displacement, Influence, Morphs, Rig, Skin, normal_before, tur
 const MOST: usize = 1 << 23;
 
 /// No body has more shares of joints in vertices, or of morph targets. Attributes can share accessors.
-const MOST_SHARES: usize = 1 << 25;
+const MOST_SHARES: usize = 1 << 24;
 
 /// The surface of a glTF file at one time.
 pub(crate) struct Surface {

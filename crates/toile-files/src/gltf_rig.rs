@@ -108,9 +108,11 @@ impl Skeleton {
     fn clip(&self, file: &GltfFile, choice: ClipChoice<'_>) -> Result<Option<Clip>, Found> {
         let animation = match choice {
             ClipChoice::None => return Ok(None),
-            ClipChoice::First => file.document.animations().next().ok_or_else(|| {
-                Found::malformed(Place::File, "it has no clip, so the body does not move; leave out moving = true")
-            })?,
+            ClipChoice::First => file
+                .document
+                .animations()
+                .next()
+                .ok_or_else(|| Found::malformed(Place::File, "it has no clip, so the body cannot move"))?,
             ClipChoice::Named(name) => {
                 let mut animations = file.document.animations();
                 animations.find(|animation| animation.name() == Some(name)).ok_or_else(|| {
@@ -157,8 +159,10 @@ impl Skeleton {
                 channels.push(Channel::Scale { node, keys });
             }
             Property::MorphTargetWeights => {
-                // A node outside of the scene has no mesh that hangs on the rig.
-                let Some(hanging) = self.hangings.get(&node) else { return Ok(()) };
+                // A node outside of the scene has no mesh that hangs on the rig, and one without targets nothing to mix.
+                let Some(hanging) = self.hangings.get(&node).filter(|hanging| !hanging.targets.is_empty()) else {
+                    return Ok(());
+                };
                 let keys = reader.weights(&sampler, hanging.targets.len())?;
                 let moves = |(target, keys)| Channel::MorphWeight { target, keys };
                 channels.extend(hanging.targets.clone().zip(keys).map(moves));

@@ -3,7 +3,7 @@
 use crate::gltf_bodies::{animated, embedded};
 use crate::support::{ellipsoid, fixture, obj_text};
 use serde_json::{Value, json};
-use toile_files::{BodyOptions, parse_body, parse_moving_body, read_body, read_moving_body};
+use toile_files::{BodyOptions, parse_body, parse_moving_body, read_body, read_mesh_sequence, read_moving_body};
 use toile_scene::{Mesh, Motion, MovingMesh};
 
 fn options(clip: &str, time: f64) -> BodyOptions {
@@ -81,7 +81,7 @@ fn boxes_of_joints_hold_the_walking_woman() {
 
 /// A glTF of two ellipsoids. The first hangs on two joints by two sets and has two morph targets; the second is carried by
 /// a node that turns. Everything moves for two seconds.
-fn puppet() -> (Value, Vec<u8>) {
+pub fn puppet() -> (Value, Vec<u8>) {
     let mesh = ellipsoid();
     let mut bytes: Vec<u8> = Vec::new();
     let (mut views, mut accessors) = (Vec::new(), Vec::new());
@@ -299,11 +299,95 @@ fn what_cannot_move_is_refused() {
     }
     insta::assert_snapshot!(messages.join("\n"), @r#"
     a.gltf: there is no clip "run"; there is: move
-    a.gltf: it has no clip, so the body does not move; leave out moving = true
+    a.gltf: it has no clip, so the body cannot move
     a.gltf, node 1: the clip moves a node that has a matrix instead of a translation and rotation
     a.gltf, accessor 1: the times of the keys do not rise
     a.gltf, accessor 4: it must be Vec3 and is Vec4
     a.obj: the motion of a .obj file, which has none (a .gltf or .glb file can have clips), cannot be read
     a.stl: its name ends in none of the known ways: .gltf, .glb
     "#);
+}
+
+/// A folder of OBJ files: an ellipsoid with a stray vertex and a seam that is welded, half as wide at the end.
+fn sequence(change: impl Fn(usize, &mut Vec<String>)) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    for frame in 0..3 {
+        let mut mesh = ellipsoid();
+        mesh.positions.iter_mut().for_each(|position| position.x *= 1.0 - 0.25 * frame as f32);
+        mesh.positions.insert(0, glam::vec3(9.0, 9.0, 9.0));
+        mesh.triangles.iter_mut().flatten().for_each(|index| *index += 1);
+        mesh.positions.push(mesh.positions[1]);
+        mesh.triangles[0] = mesh.triangles[0].map(|index| if index == 1 { 111 } else { index });
+        let mut lines: Vec<String> = obj_text(&mesh).lines().map(String::from).collect();
+        change(frame, &mut lines);
+        std::fs::write(folder.path().join(format!("frame_{frame}.obj")), lines.join("\n")).expect("a file");
+    }
+    std::fs::write(folder.path().join("readme.txt"), "not a body").expect("a file");
+    folder
+}
+
+#[test]
+fn a_folder_of_files_moves_in_the_order_of_their_names() {
+    let folder = sequence(|_, _| {});
+    let file = read_mesh_sequence(folder.path(), 10.0, &BodyOptions::default()).expect("a sequence");
+    assert_eq!(file.warnings, ["isolated vertices removed: 1"]);
+    let body = file.body;
+    assert_eq!((body.mesh.positions.len(), body.duration(), body.is_closed()), (110, 0.2, false));
+    let first = parse_body(
+        &std::fs::read(folder.path().join("frame_0.obj")).expect("a file"),
+        "a.obj",
+        &BodyOptions::default(),
+    );
+    assert_eq!(body.mesh, first.expect("a body").mesh);
+    for (time, width) in [(0.0, 1.0), (0.05, 0.875), (0.2, 0.5), (1.0, 0.5)] {
+        let mesh = body.at(time);
+        for (got, expected) in mesh.positions.iter().zip(&ellipsoid().positions) {
+            assert!((got.x - width * expected.x).abs() < 1e-6 && (got.y - expected.y).abs() < 1e-6, "{time}");
+        }
+    }
+    let last = body.at(0.2);
+    assert!(last.normals.iter().zip(&last.area_weighted_normals()).all(|(a, b)| a.distance(*b) < 1e-6));
+    assert!(last.normals.iter().zip(&body.mesh.normals).any(|(a, b)| a.distance(*b) > 0.1));
+}
+
+#[test]
+fn what_leaves_its_place_is_told_and_what_differs_is_refused() {
+    let torn = sequence(|frame, lines| {
+        if frame == 2 {
+            lines[111] = "v 0 1.7 0".into();
+        }
+    });
+    let file = read_mesh_sequence(torn.path(), 10.0, &BodyOptions::default()).expect("a sequence");
+    let expected = "vertices that start at the place of another one and leave it, which is not followed: 1";
+    assert_eq!(file.warnings, ["isolated vertices removed: 1", expected]);
+    let other_faces = sequence(|frame, lines| {
+        if frame == 1 {
+            lines.swap(112, 113)
+        }
+    });
+    let more_vertices = sequence(|frame, lines| {
+        if frame == 2 {
+            lines.push("v 0 0 0".into())
+        }
+    });
+    let broken = sequence(|frame, lines| {
+        if frame == 1 {
+            lines[5] = "v 0 nan 0".into()
+        }
+    });
+    let empty = tempfile::tempdir().expect("a folder");
+    let message = |folder: &std::path::Path| {
+        let error = read_mesh_sequence(folder, 10.0, &BodyOptions::default()).expect_err("a refusal").to_string();
+        error.replace(&folder.display().to_string(), "folder")
+    };
+    let messages: Vec<_> =
+        [other_faces, more_vertices, broken, empty].iter().map(|folder| message(folder.path())).collect();
+    insta::assert_snapshot!(messages.join("\n"), @r#"
+    folder/frame_1.obj: its faces are not those of frame_0.obj; a sequence moves one mesh
+    folder/frame_2.obj: it has 113 vertices and frame_0.obj has 112; a sequence moves one mesh
+    folder/frame_1.obj, line 6: the position (0.0, NaN, 0.0) is not a finite number
+    folder: the folder has no .obj file
+    "#);
+    let missing = read_mesh_sequence(std::path::Path::new("nowhere"), 10.0, &BodyOptions::default());
+    assert!(missing.expect_err("no folder").to_string().starts_with("nowhere: it cannot be read: "));
 }
