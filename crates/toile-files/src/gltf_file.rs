@@ -27,6 +27,7 @@ impl GltfFile {
         let gltf::Gltf { document, mut blob } = gltf::Gltf::from_slice_without_validation(bytes).map_err(gltf_fault)?;
         let root = document.into_json();
         check_positions(&root)?;
+        check_channels(&root)?;
         let document = gltf::Document::from_json(root).map_err(gltf_fault)?;
         let buffers = document
             .buffers()
@@ -228,6 +229,25 @@ fn check_positions(root: &gltf::json::Root) -> Result<(), Found> {
                 let index = i64::try_from(accessor).unwrap_or(i64::MAX);
                 let place = Place::Key(format!("meshes[{number}].primitives.attributes.POSITION"));
                 return Err(Found::at(place, Fault::OutOfRange { what: "accessor", index, count }));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The validation of the crate passes over what channels of clips move, and reading it would panic.
+fn check_channels(root: &gltf::json::Root) -> Result<(), Found> {
+    let count = root.nodes.len();
+    for (clip, animation) in root.animations.iter().enumerate() {
+        for (channel, target) in animation.channels.iter().map(|channel| &channel.target).enumerate() {
+            let place = |key: &str| Place::Key(format!("animations[{clip}].channels[{channel}].target.{key}"));
+            if matches!(target.path, Checked::Invalid) {
+                let message = "a clip moves \"translation\", \"rotation\", \"scale\" or \"weights\"";
+                return Err(Found::malformed(place("path"), message));
+            }
+            if target.node.value() >= count {
+                let index = i64::try_from(target.node.value()).unwrap_or(i64::MAX);
+                return Err(Found::at(place("node"), Fault::OutOfRange { what: "node", index, count }));
             }
         }
     }

@@ -113,7 +113,8 @@ impl Skin {
     }
 
     /// For each joint the box of bind positions of the vertices that hang on it, wide enough for every mixture of morph
-    /// targets with weights from −1 to 1; `None` where no vertex does. With [`Pose::bounds`] they bound the posed mesh.
+    /// targets with weights from −1 to 1; `None` where no vertex does. With [`Pose::bounds`] they bound the posed mesh, loosely
+    /// where a vertex hangs on a far joint by however small a weight.
     pub fn joint_boxes(&self) -> Vec<Option<[Vec3; 2]>> {
         let joint_count = self.influences.iter().map(|share| share.joint + 1).max().unwrap_or(0);
         let mut boxes: Vec<Option<[Vec3; 2]>> = vec![None; joint_count as usize];

@@ -50,6 +50,9 @@ fn only_the_loop_is_closed() {
     assert_eq!(CLIPS.map(|clip| woman(clip).is_closed()), [true, false, false]);
     let walk = woman("walk_loop");
     assert!((walk.duration() - 1.1).abs() < 1e-6);
+    // A body at rest takes the last pose of a clip for any later time.
+    let late = read_body(&fixture("bodies/walking_woman.glb"), &options("walk_loop", 1.4)).expect("the fixture");
+    assert!(farthest(&late.mesh, &walk.at(walk.duration())) < 1e-6);
     let again = walk.at(2.0 * walk.duration() + 0.3);
     assert!(farthest(&again, &walk.at(0.3)) < 1e-6);
     let Motion::Skinned { rig, .. } = &walk.motion else { panic!("a skin") };
@@ -76,7 +79,9 @@ fn boxes_of_joints_hold_the_walking_woman() {
             widest = widest.max(excess);
         }
     }
-    assert!(widest.max_element() < 1.0, "{widest}");
+    // x and z by stray weights of the fixture: a few vertices of the right hand and the right toes hang a little on joints of
+    // the left ones, whose boxes then span both. Height has none of it.
+    assert!(widest.cmplt(glam::vec3(0.95, 0.02, 0.65)).all(), "{widest}");
 }
 
 /// A glTF of two ellipsoids. The first hangs on two joints by two sets and has two morph targets; the second is carried by
@@ -262,7 +267,7 @@ fn a_sparse_morph_target_changes_only_what_it_names() {
 
 #[test]
 fn vertices_of_one_place_that_hang_differently_are_told() {
-    // Two quads share an edge at time 0; only one of them is carried along.
+    // Two nodes carry one mesh at one place; only the second one moves.
     let (mut root, bytes) = animated("LINEAR");
     root["nodes"] = json!([{ "mesh": 0 }, { "mesh": 0 }]);
     root["scenes"][0]["nodes"] = json!([0, 1]);
@@ -274,6 +279,9 @@ fn vertices_of_one_place_that_hang_differently_are_told() {
             "vertices that follow another one of the same place, which hangs differently: 110"
         ]
     );
+    // The second node comes first in the walk through the scene, so it is the one that is followed.
+    let [start, end] = [0.0, 3.0].map(|time| file.body.at(time).positions[0]);
+    assert!(end.distance(start + glam::vec3(0.4, 0.0, 0.0)) < 1e-6, "{start} {end}");
 }
 
 #[test]
@@ -293,6 +301,8 @@ fn what_cannot_move_is_refused() {
     change("/nodes/1", json!({ "mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] }), None);
     change("/animations/0/samplers/0/input", 1.into(), None);
     change("/animations/0/samplers/0/output", 4.into(), None);
+    change("/animations/0/channels/0/target/path", "colour".into(), None);
+    change("/animations/0/channels/1/target/node", 7.into(), None);
     for name in ["a.obj", "a.stl"] {
         let error = parse_moving_body(obj_text(&ellipsoid()).as_bytes(), name, &BodyOptions::default());
         messages.push(error.expect_err("a refusal").to_string());
@@ -303,6 +313,8 @@ fn what_cannot_move_is_refused() {
     a.gltf, node 1: the clip moves a node that has a matrix instead of a translation and rotation
     a.gltf, accessor 1: the times of the keys do not rise
     a.gltf, accessor 4: it must be Vec3 and is Vec4
+    a.gltf, key "animations[0].channels[0].target.path": a clip moves "translation", "rotation", "scale" or "weights"
+    a.gltf, key "animations[0].channels[1].target.node": node 7 does not exist: there are 2
     a.obj: the motion of a .obj file, which has none (a .gltf or .glb file can have clips), cannot be read
     a.stl: its name ends in none of the known ways: .gltf, .glb
     "#);
