@@ -43,9 +43,10 @@ fn measure(bench: &Bench, body: &Mesh) {
     let bounds = body.bounds().expect("an ellipsoid has vertices");
     let thickness = scene.fabric.thickness as f32;
     let frame = MapFrame::around([bounds[0] - thickness, bounds[1] + thickness], scene.texel as f32);
-    let maps = BodyMaps::new(&bench.device, frame).unwrap_or_else(|error| panic!("{error}"));
+    let maps = BodyMaps::new(&bench.device, frame, false).unwrap_or_else(|error| panic!("{error}"));
     let surface = Surface::new(&bench.device, body);
-    let drawing = (0..10).map(|_| run(bench, |encoder| maps.record(&bench.device, encoder, &[(&surface, thickness)])));
+    let drawing =
+        (0..10).map(|_| run(bench, |encoder| maps.record(&bench.device, encoder, frame, &[(&surface, thickness)])));
     let drawing = median(drawing.collect());
 
     let sheet = Sheet {

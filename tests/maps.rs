@@ -89,7 +89,7 @@ fn the_device_draws_what_the_reference_casts() {
     for (name, mesh) in bodies() {
         for texel in [TEXEL, 3.7 * TEXEL] {
             let layers = Layers::draw(gpu(), &[(&mesh, THICKNESS)], texel);
-            let reference = render_maps(&[Surface { mesh: &mesh, thickness: THICKNESS }], texel);
+            let reference = render_maps(&[Surface { mesh: &mesh, thickness: THICKNESS, velocities: None }], texel);
             let comparison = Comparison::new(&layers.read, &reference);
             assert!(comparison.seen > 500 && comparison.agrees(), "{name} at {texel} m: {comparison:?}");
         }
@@ -100,7 +100,10 @@ fn the_device_draws_what_the_reference_casts() {
 fn several_surfaces_share_the_maps() {
     let [ball, block] = [uv_sphere(vec3(0.0, 0.2, 0.0), 0.2, 24), box_mesh(vec3(-0.3, 0.0, 0.0), vec3(0.0, 0.2, 0.3))];
     let layers = Layers::draw(gpu(), &[(&ball, 0.01), (&block, 0.002)], TEXEL);
-    let surfaces = [Surface { mesh: &ball, thickness: 0.01 }, Surface { mesh: &block, thickness: 0.002 }];
+    let surfaces = [
+        Surface { mesh: &ball, thickness: 0.01, velocities: None },
+        Surface { mesh: &block, thickness: 0.002, velocities: None },
+    ];
     let comparison = Comparison::new(&layers.read, &render_maps(&surfaces, TEXEL));
     assert!(comparison.agrees(), "{comparison:?}");
 }
@@ -176,7 +179,7 @@ fn sheet(rule: Rule) -> (Model, StepSettings) {
 fn without_a_body_nothing_of_the_contacts_exists() {
     let (model, settings) = sheet(Rule::Predictive);
     let solver = Solver::new(&gpu().device, &model, &settings, Colliders::default()).expect("it fits the device");
-    let contact = [Need::Body, Need::Maps, Need::Sphere];
+    let contact = [Need::Body, Need::StillMaps, Need::MovingMaps, Need::Sphere];
     for kernel in solver.plan().kernels() {
         let row = TABLE.iter().find(|row| row.kernel == kernel).expect("every kernel has a row");
         assert!(!contact.contains(&row.need), "{} needs a body", kernel.name());

@@ -28,7 +28,7 @@ fn rolling_ball() -> MovingMesh {
         translation: DVec3::new(time, 0.1 * time, 0.0),
         rotation: DQuat::from_rotation_z(-2.0 * time),
     };
-    MovingMesh::rigid(&uv_sphere(Vec3::ZERO, 0.25, 48), &[key(0.0), key(0.5), key(1.0)])
+    MovingMesh::rigid(uv_sphere(Vec3::ZERO, 0.25, 48), vec![key(0.0), key(0.5), key(1.0)])
 }
 
 #[test]
@@ -180,7 +180,7 @@ fn passed(speed: f64, swept: bool) -> usize {
     let start = middle - DVec3::Z * 0.5;
     let end = 0.8 / speed;
     let key = |time: f64| RigidKey { time, translation: start + DVec3::Z * speed * time, rotation: DQuat::IDENTITY };
-    let ball = MovingMesh::rigid(&uv_sphere(Vec3::ZERO, 0.1, 24), &[key(0.0), key(1.0)]);
+    let ball = MovingMesh::rigid(uv_sphere(Vec3::ZERO, 0.1, 24), vec![key(0.0), key(1.0)]);
     let interval = f64::from(settings.dt) * f64::from(settings.steps_per_frame);
     let mut reference: Option<Reference> = None;
     let mut time = 0.0;

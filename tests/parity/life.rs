@@ -16,7 +16,7 @@ pub struct Life {
 
 impl Life {
     pub fn new(model: &Model, settings: &StepSettings, layers: Option<&Layers>, sphere: Option<Sphere>) -> Self {
-        let colliders = Colliders { maps: layers.map(|layers| layers.maps.as_ref()), sphere };
+        let colliders = Colliders { maps: layers.map(|layers| layers.maps.as_ref()), sphere: sphere.clone() };
         let solver = Solver::new(&gpu().device, model, settings, colliders).expect("the model fits the device");
         let maps = layers.map(|layers| layers.read.clone());
         let reference = Reference::new(model, settings, toile_reference::Colliders { maps, sphere });

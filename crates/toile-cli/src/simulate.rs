@@ -18,6 +18,12 @@ pub fn simulate(file: &SceneFile, running: &Running) -> Result<()> {
     let scene = &file.scene;
     output::check(&running.out)?;
     let sphere = sphere(scene)?;
+    if scene.bodies.iter().any(|body| matches!(body, Body::Moving(_))) {
+        bail!(
+            "scene {} has a mesh that moves: toile walk goes along with one, toile run knows meshes at rest",
+            scene.name
+        );
+    }
     if !running.quiet {
         for warning in &file.warnings {
             eprintln!("warning: {warning}");
@@ -34,6 +40,7 @@ pub fn simulate(file: &SceneFile, running: &Running) -> Result<()> {
     let mut all: Vec<Worn> = Vec::new();
     let mut measured = Vec::new();
     for cloth in &scene.cloths {
+        let sphere = sphere.clone();
         let around = Surroundings { computer: &computer, layers: &layers, sphere, texel, quiet: running.quiet };
         let worn = match cloth {
             Cloth::Garment(garment) => worn::dress(garment, &scene.settings, &around)?,
@@ -50,7 +57,7 @@ pub fn simulate(file: &SceneFile, running: &Running) -> Result<()> {
         all.push(worn);
     }
     let metrics = Metrics::new(&scene.name, computer.name(), measured);
-    let ball = sphere.map(|sphere| sphere_mesh(sphere.at(end(&all)).0, sphere.radius));
+    let ball = sphere.as_ref().map(|sphere| sphere_mesh(sphere.at(end(&all)).0, sphere.radius));
     let mut bodies: Vec<Shown<'_>> = meshes(scene).map(|mesh| Shown { name: "body", mesh }).collect();
     bodies.extend(ball.as_ref().map(|mesh| Shown { name: "sphere", mesh }));
     let cloths: Vec<Shown<'_>> = all.iter().map(|worn| Shown { name: &worn.name, mesh: &worn.mesh }).collect();
@@ -70,15 +77,15 @@ pub fn simulate(file: &SceneFile, running: &Running) -> Result<()> {
 fn meshes(scene: &Scene) -> impl Iterator<Item = &toile::scene::Mesh> {
     scene.bodies.iter().filter_map(|body| match body {
         Body::Mesh(mesh) => Some(mesh),
-        Body::Sphere(_) => None,
+        Body::Moving(_) | Body::Sphere(_) => None,
     })
 }
 
 /// The sphere of a scene. The kernels know one; a second one would silently be missing.
 pub fn sphere(scene: &Scene) -> Result<Option<Sphere>> {
     let mut spheres = scene.bodies.iter().filter_map(|body| match body {
-        Body::Sphere(sphere) => Some(*sphere),
-        Body::Mesh(_) => None,
+        Body::Sphere(sphere) => Some(sphere.clone()),
+        Body::Mesh(_) | Body::Moving(_) => None,
     });
     match (spheres.next(), spheres.count()) {
         (first, 0) => Ok(first),

@@ -80,7 +80,8 @@ impl Log {
 pub fn dress(garment: &Garment, settings: &Settings, around: &Surroundings<'_>) -> Result<Worn> {
     let open = Model::from_garment(garment, settings)?;
     let open_settings = StepSettings::new(settings, &open).sewing();
-    let mut engine = around.computer.start(&open, &open_settings, around.layers, around.sphere, around.texel)?;
+    let mut engine =
+        around.computer.start(&open, &open_settings, around.layers, around.sphere.clone(), around.texel)?;
     let mut dressing = Dressing::new(&open, &open_settings);
     let mut log = Log::default();
     let progress = Progress::new(&garment.name, around.quiet);
@@ -119,7 +120,7 @@ pub fn dress(garment: &Garment, settings: &Settings, around: &Surroundings<'_>) 
 /// Runs a cloth without seams for a number of frames.
 pub fn run(name: &str, model: Model, frames: u32, settings: &Settings, around: &Surroundings<'_>) -> Result<Worn> {
     let settings = StepSettings::new(settings, &model);
-    let mut engine = around.computer.start(&model, &settings, around.layers, around.sphere, around.texel)?;
+    let mut engine = around.computer.start(&model, &settings, around.layers, around.sphere.clone(), around.texel)?;
     let mut log = Log::default();
     let mut status = Status::default();
     let progress = Progress::new(name, around.quiet);

@@ -343,7 +343,8 @@ fn an_interrupted_walk_goes_on_bit_for_bit() {
     let journey = Journey::new();
     let skirt = fixture("garments/skirt.json");
     let walk = |out: &'static str, more: &[&'static str]| {
-        let options = ["walk", "--garment", &skirt, "--spacing", "4cm", "--texel", "1cm", "--seconds", "0.2", "--quiet"];
+        let options =
+            ["walk", "--garment", &skirt, "--spacing", "4cm", "--texel", "1cm", "--seconds", "0.2", "--quiet"];
         journey.command(&[&options[..], &["--out", out], more].concat())
     };
     good(walk("whole", &[]).output().expect("the program runs"));

@@ -1,6 +1,7 @@
 //! Bodies from OBJ, PLY, glTF and GLB files.
 
 use crate::error::{Fault, FileError, Found};
+use crate::gltf_rig::ClipChoice;
 use crate::{gltf_body, obj, ply, source};
 use std::path::Path;
 use toile_scene::Mesh;
@@ -16,9 +17,11 @@ const ENDINGS: &str = ".obj, .ply, .gltf, .glb";
 pub struct BodyOptions {
     /// Length of the file's unit [m], positive: 0.01 for centimetres.
     pub metres_per_unit: f64,
-    /// Animation clip of a glTF file whose pose is taken; `None` takes the nodes as they stand (the rest pose).
+    /// Animation clip of a glTF file whose pose is taken; `None` takes the nodes as they stand (the rest pose), or the first
+    /// clip where the body moves.
     pub clip: Option<String>,
-    /// Time in the clip [s]; before its first and after its last key the pose stands still.
+    /// Time in the clip [s]; before its first and after its last key the pose stands still. A body that moves starts at 0
+    /// whatever this is.
     pub time: f64,
 }
 
@@ -65,14 +68,18 @@ fn read(bytes: &[u8], name: &Path, folder: Option<&Path>, options: &BodyOptions)
     let soup = match ending.to_ascii_lowercase().as_str() {
         "obj" => obj::read(bytes)?,
         "ply" => ply::read(bytes)?,
-        "gltf" | "glb" => gltf_body::read(bytes, folder, options.clip.as_deref(), options.time)?.soup,
+        "gltf" | "glb" => {
+            let choice = options.clip.as_deref().map_or(ClipChoice::None, ClipChoice::Named);
+            gltf_body::read(bytes, folder, choice, options.time, options.metres_per_unit)?.soup
+        }
         _ => return Err(Fault::UnknownFormat(ENDINGS).into()),
     };
-    let mesh = soup.clean(options.metres_per_unit, &mut warnings)?;
+    let mesh = soup.clean(options.metres_per_unit, &mut warnings)?.mesh;
     check_height(&mesh, options.metres_per_unit)?;
     Ok(BodyFile { mesh, warnings })
 }
 
+/// Refuses a body that is no person's size.
 pub(crate) fn check_height(mesh: &Mesh, metres_per_unit: f64) -> Result<(), Found> {
     let [low, high] = mesh.bounds().expect("a clean mesh has vertices");
     let height = f64::from(high.y) - f64::from(low.y);

@@ -1,84 +1,70 @@
-//! The surface of a posed glTF file: every mesh of the scene, skinned meshes bent by their joints.
+//! The surface of a posed glTF file: every mesh of the scene, bent by its joints, and how it hangs on them.
 
 use crate::error::{Fault, Found, Place};
-use crate::gltf_file::GltfFile;
-use crate::gltf_pose::Skeleton;
-use crate::soup::Soup;
-use glam::{DMat4, DVec3, Mat4, Vec3};
+use crate::gltf_file::{GltfFile, check_most};
+use crate::gltf_rig::{ClipChoice, Hanging, Skeleton};
+use crate::soup::{Cleaned, Soup};
+use glam::{DMat4, Vec3};
 use gltf::Semantic;
 use gltf::accessor::Dimensions;
 use gltf::mesh::Mode;
 use std::path::Path;
-use toile_scene::{Displacement, Influence, Rig};
+use toile_scene::{Displacement, Influence, Morphs, Rig, Skin, normal_before, turned_normal};
 
 /// No body has more vertices or triangles. Nodes can repeat a mesh, so a small file can ask for any number.
 const MOST: usize = 1 << 23;
 
-/// The surface of a file at one time, and how its vertices hang on the joints.
-pub(crate) struct Posed {
-    /// The surface in the file's unit.
+/// No body has more shares of joints in vertices, or of morph targets. Attributes can share accessors.
+const MOST_SHARES: usize = 1 << 24;
+
+/// The surface of a glTF file at one time.
+pub(crate) struct Surface {
+    /// Its posed triangles, in the file's unit.
     pub soup: Soup,
-    /// Of each vertex of the soup.
-    pub bindings: Vec<Binding>,
-    /// The joints, in the file's unit.
+    /// How the vertices of the soup hang on the joints; a normal is zero where the file gives none.
+    pub skin: Skin,
+    /// How the joints move.
     pub rig: Rig,
+    /// From bind space to the world of the file at that time, for each joint.
+    matrices: Vec<DMat4>,
+    /// Weight of each morph target at that time.
+    morph_weights: Vec<f64>,
 }
 
-/// How a vertex hangs on the joints.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Binding {
-    pub position: Vec3,
-    pub influences: Vec<Influence>,
-    pub displacements: Vec<Displacement>,
-    /// From bind space to the world, at the time of the surface.
-    pub matrix: DMat4,
-}
-
-/// Reads the surface at a clip and time. Positions stay in the file's unit.
-pub(crate) fn read(bytes: &[u8], folder: Option<&Path>, clip: Option<&str>, time: f64) -> Result<Posed, Found> {
+/// Reads the surface at a time of a clip; after the end of the clip it stands still. Positions stay in the file's unit.
+pub(crate) fn read(
+    bytes: &[u8],
+    folder: Option<&Path>,
+    choice: ClipChoice<'_>,
+    time: f64,
+    metres_per_unit: f64,
+) -> Result<Surface, Found> {
     let file = GltfFile::open(bytes, folder)?;
-    let mut skeleton = Skeleton::read(&file, clip)?;
-    skeleton.check(time)?;
-    let mut unposed = Vec::new();
-    for node in scene_nodes(&file.document) {
-        let Some(mesh) = node.mesh() else { continue };
-        let joints = match node.skin() {
-            Some(skin) => add_skin(&file, &skin, &mut skeleton)?,
-            // The node's own transform counts for a mesh without skin only.
-            None => vec![skeleton.add_joint(&node, DMat4::IDENTITY)],
-        };
-        let skinned = node.skin().is_some();
-        let targets = mesh.primitives().map(|primitive| primitive.morph_targets().count()).max().unwrap_or(0);
-        let first_target = skeleton.rig.morph_weights.len() as u32;
-        let weights = node.weights().or(mesh.weights()).unwrap_or_default();
-        let weight = |target: usize| weights.get(target).copied().map_or(0.0, f64::from);
-        skeleton.rig.morph_weights.extend((0..targets).map(weight));
-        if let (Some(clip), true) = (clip, targets > 0) {
-            skeleton.read_morph_tracks(&file, clip, &node, first_target, targets)?;
-        }
-        for primitive in mesh.primitives() {
-            unposed.push((primitive, joints.clone(), skinned, first_target));
+    let mesh_nodes: Vec<_> = scene_nodes(&file.document).into_iter().filter(|node| node.mesh().is_some()).collect();
+    let skeleton = Skeleton::of(&file, &mesh_nodes)?;
+    let hangings: Vec<Hanging> = mesh_nodes.iter().map(|node| skeleton.hanging(node.index())).collect();
+    let rig = skeleton.rig(&file, choice, metres_per_unit)?;
+    let time = time.min(rig.duration());
+    let world = rig.node_transforms(time);
+    if let Some(node) = world.iter().position(|matrix| !matrix.is_finite()) {
+        return Err(Found::at(Place::Node(node), Fault::NotFinite("the transform of the node".into())));
+    }
+    let mut surface = Surface {
+        soup: Soup::default(),
+        skin: Skin { influence_offsets: vec![0], ..Skin::default() },
+        matrices: rig.joints().iter().map(|joint| world[joint.node] * joint.inverse_bind).collect(),
+        morph_weights: rig.morph_weights(time),
+        rig,
+    };
+    let mut morphs = Morphs { offsets: vec![0], displacements: Vec::new() };
+    let mut displacement_count = 0;
+    for (node, hanging) in mesh_nodes.iter().zip(&hangings) {
+        for primitive in node.mesh().iter().flat_map(|mesh| mesh.primitives()) {
+            surface.add_primitive(&file, &primitive, hanging, &mut morphs, &mut displacement_count)?;
         }
     }
-    let pose = skeleton.rig.pose(time);
-    let matrices: Vec<DMat4> = pose_matrices(&skeleton.rig, time);
-    let mut posed = Posed { soup: Soup::default(), bindings: Vec::new(), rig: skeleton.rig };
-    for (primitive, joints, skinned, first_target) in unposed {
-        add_primitive(&file, &primitive, &joints, skinned, first_target, &matrices, &pose.morph_weights, &mut posed)?;
-    }
-    Ok(posed)
-}
-
-/// From bind space to the world for each joint, in f64.
-fn pose_matrices(rig: &Rig, time: f64) -> Vec<DMat4> {
-    let worlds = rig.worlds(time);
-    rig.joints.iter().map(|joint| worlds[joint.node as usize] * joint.inverse_bind).collect()
-}
-
-/// Names of the clips of a file, in its order.
-pub(crate) fn clip_names(bytes: &[u8], folder: Option<&Path>) -> Result<Vec<String>, Found> {
-    let file = GltfFile::open(bytes, folder)?;
-    Ok(file.document.animations().filter_map(|animation| animation.name()).map(String::from).collect())
+    surface.skin.morphs = (!morphs.displacements.is_empty()).then_some(morphs);
+    Ok(surface)
 }
 
 /// The nodes of the default scene, else of the first one, else of the file; parents first.
@@ -98,147 +84,203 @@ fn scene_nodes(document: &gltf::Document) -> Vec<gltf::Node<'_>> {
     nodes
 }
 
-/// Adds the joints of a skin and gives their indices.
-fn add_skin(file: &GltfFile, skin: &gltf::Skin<'_>, skeleton: &mut Skeleton) -> Result<Vec<u32>, Found> {
-    let nodes: Vec<gltf::Node<'_>> = skin.joints().collect();
-    let Some(accessor) = skin.inverse_bind_matrices() else {
-        return Ok(nodes.iter().map(|node| skeleton.add_joint(node, DMat4::IDENTITY)).collect());
-    };
-    let inverse_bind = file.read::<16>(&accessor, Dimensions::Mat4)?;
-    if inverse_bind.len() < nodes.len() {
-        let message = format!("{} matrices for {} joints", inverse_bind.len(), nodes.len());
-        return Err(Found::malformed(Place::Accessor(accessor.index()), message));
-    }
-    let joint =
-        |(node, bind): (&gltf::Node<'_>, &[f32; 16])| skeleton.add_joint(node, Mat4::from_cols_array(bind).as_dmat4());
-    Ok(nodes.iter().zip(&inverse_bind).map(joint).collect())
-}
-
-#[expect(
-    clippy::too_many_arguments,
-    reason = "what a primitive is read with comes from its node, its skin and its mesh"
-)]
-fn add_primitive(
-    file: &GltfFile,
-    primitive: &gltf::Primitive<'_>,
-    joints: &[u32],
-    skinned: bool,
-    first_target: u32,
-    matrices: &[DMat4],
-    morph_weights: &[f32],
-    posed: &mut Posed,
-) -> Result<(), Found> {
-    if !matches!(primitive.mode(), Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
-        return Ok(());
-    }
-    let Some(accessor) = primitive.get(&Semantic::Positions) else {
-        return Ok(());
-    };
-    let positions = file.read::<3>(&accessor, Dimensions::Vec3)?;
-    let soup = &mut posed.soup;
-    let first = soup.positions.len();
-    check_most("vertices", first + positions.len())?;
-    let influences = if skinned {
-        skin_influences(file, primitive, joints, positions.len())?
-    } else {
-        vec![vec![Influence { joint: joints[0], weight: 1.0 }]; positions.len()]
-    };
-    let displacements = read_displacements(file, primitive, first_target, positions.len())?;
-    let place = || Place::Accessor(accessor.index());
-    for ((position, influences), displacements) in positions.iter().zip(influences).zip(displacements) {
-        let mut matrix = DMat4::ZERO;
-        for influence in &influences {
-            matrix += matrices[influence.joint as usize] * f64::from(influence.weight);
+impl Surface {
+    fn add_primitive(
+        &mut self,
+        file: &GltfFile,
+        primitive: &gltf::Primitive<'_>,
+        hanging: &Hanging,
+        morphs: &mut Morphs,
+        displacement_count: &mut usize,
+    ) -> Result<(), Found> {
+        if !matches!(primitive.mode(), Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
+            return Ok(());
         }
-        let position = Vec3::from(*position);
-        let shift = |d: &Displacement| d.position.as_dvec3() * f64::from(morph_weights[d.target as usize]);
-        let morphed = position.as_dvec3() + displacements.iter().map(shift).sum::<DVec3>();
-        soup.push_vertex(matrix.transform_point3(morphed), place)?;
-        posed.bindings.push(Binding { position, influences, displacements, matrix });
-    }
-    if let Some(accessor) = primitive.get(&Semantic::Normals) {
-        let normals = file.read::<3>(&accessor, Dimensions::Vec3)?;
-        for (vertex, normal) in normals.iter().enumerate().take(positions.len()) {
-            let binding = &posed.bindings[first + vertex];
-            let shift = |d: &Displacement| d.normal.as_dvec3() * f64::from(morph_weights[d.target as usize]);
-            let morphed = Vec3::from(*normal).as_dvec3() + binding.displacements.iter().map(shift).sum::<DVec3>();
-            soup.normals[first + vertex] = turned(binding.matrix, morphed);
-        }
-    }
-    add_triangles(file, primitive, positions.len(), soup)
-}
-
-/// What the morph targets of a primitive do to each vertex.
-fn read_displacements(
-    file: &GltfFile,
-    primitive: &gltf::Primitive<'_>,
-    first_target: u32,
-    vertex_count: usize,
-) -> Result<Vec<Vec<Displacement>>, Found> {
-    let mut displacements = vec![Vec::new(); vertex_count];
-    for (morph, target) in primitive.morph_targets().zip(first_target..) {
-        let read = |accessor: Option<gltf::Accessor<'_>>| match accessor {
-            Some(accessor) => file.read::<3>(&accessor, Dimensions::Vec3),
-            None => Ok(Vec::new()),
+        let Some(accessor) = primitive.get(&Semantic::Positions) else {
+            return Ok(());
         };
-        let [positions, normals] = [read(morph.positions())?, read(morph.normals())?];
-        for (vertex, displacements) in displacements.iter_mut().enumerate() {
-            let at = |values: &[[f32; 3]]| values.get(vertex).copied().map_or(Vec3::ZERO, Vec3::from);
-            let (position, normal) = (at(&positions), at(&normals));
-            if position != Vec3::ZERO || normal != Vec3::ZERO {
-                displacements.push(Displacement { target, position, normal });
+        let positions = file.read::<3>(&accessor, Dimensions::Vec3)?;
+        let first = self.soup.positions.len();
+        check_most("body", "vertices", first + positions.len(), MOST)?;
+        let sets = if hanging.skinned { joint_sets(file, primitive, positions.len())? } else { Vec::new() };
+        let share_count = self.skin.influences.len() + 4 * sets.len() * positions.len();
+        check_most("body", "shares of joints", share_count, MOST_SHARES)?;
+        let normals = match primitive.get(&Semantic::Normals) {
+            Some(accessor) => file.read::<3>(&accessor, Dimensions::Vec3)?,
+            None => Vec::new(),
+        };
+        *displacement_count += primitive.morph_targets().count() * positions.len();
+        check_most("body", "displacements by morph targets", *displacement_count, MOST_SHARES)?;
+        let targets = primitive.morph_targets().map(|target| Target::read(file, &target, positions.len()));
+        let targets = targets.collect::<Result<Vec<_>, _>>()?;
+        for (vertex, position) in positions.iter().enumerate() {
+            for (number, target) in targets.iter().enumerate() {
+                morphs.displacements.extend(target.displacement(vertex, (hanging.targets.start + number) as u32));
+            }
+            morphs.offsets.push(morphs.displacements.len() as u32);
+            let displacements = morphs.offsets[first + vertex] as usize..;
+            let normal = normals.get(vertex).map_or(Vec3::ZERO, |normal| Vec3::from(*normal));
+            let mut posed = [Vec3::from(*position), normal].map(|vector| vector.as_dvec3());
+            for displacement in &morphs.displacements[displacements] {
+                let weight = self.morph_weights[displacement.target as usize];
+                posed[0] += displacement.position.as_dvec3() * weight;
+                posed[1] += displacement.normal.as_dvec3() * weight;
+            }
+            let matrix = if hanging.skinned {
+                self.add_influences(&sets, vertex, hanging)?
+            } else {
+                self.skin.influences.push(Influence { joint: hanging.joints.start as u32, weight: 1.0 });
+                self.matrices[hanging.joints.start]
+            };
+            self.skin.influence_offsets.push(self.skin.influences.len() as u32);
+            self.skin.positions.push(Vec3::from(*position));
+            self.skin.normals.push(normal);
+            self.soup.push_vertex(matrix.transform_point3(posed[0]), || Place::Accessor(accessor.index()))?;
+            self.soup.normals[first + vertex] = turned_normal(matrix, posed[1]);
+        }
+        add_triangles(file, primitive, positions.len(), &mut self.soup)
+    }
+
+    /// Adds the shares of a vertex to the skin and gives the mean of its joints' matrices by weight.
+    fn add_influences(&mut self, sets: &[JointSet], vertex: usize, hanging: &Hanging) -> Result<DMat4, Found> {
+        let first = self.skin.influences.len();
+        let (mut matrix, mut sum) = (DMat4::ZERO, 0.0);
+        for set in sets {
+            for (index, weight) in set.indices[vertex].iter().zip(set.weights[vertex]) {
+                if weight == 0.0 {
+                    continue;
+                }
+                if !(weight > 0.0 && weight.is_finite()) {
+                    let message = format!("vertex {vertex} hangs on a joint by the weight {weight}");
+                    return Err(Found::malformed(Place::Accessor(set.weight_accessor), message));
+                }
+                let (count, index) = (hanging.joints.len(), *index as usize);
+                if index >= count {
+                    let fault = Fault::OutOfRange { what: "joint", index: index as i64, count };
+                    return Err(Found::at(Place::Accessor(set.joint_accessor), fault));
+                }
+                let joint = hanging.joints.start + index;
+                self.skin.influences.push(Influence { joint: joint as u32, weight });
+                matrix += self.matrices[joint] * f64::from(weight);
+                sum += f64::from(weight);
             }
         }
+        if sum <= 0.0 {
+            let place = sets.last().map_or(Place::File, |set| Place::Accessor(set.weight_accessor));
+            return Err(Found::malformed(place, format!("vertex {vertex} hangs on no joint")));
+        }
+        for share in &mut self.skin.influences[first..] {
+            share.weight = (f64::from(share.weight) / sum) as f32;
+        }
+        Ok(matrix * sum.recip())
     }
-    Ok(displacements)
+
+    /// The skin of the clean mesh that was made of the soup. Its normals are those that pose as the clean ones.
+    pub fn skin_of(&self, cleaned: &Cleaned) -> Skin {
+        let mut skin = Skin { influence_offsets: vec![0], ..Skin::default() };
+        let mut morphs = Morphs { offsets: vec![0], displacements: Vec::new() };
+        for (origin, normal) in cleaned.origins.iter().zip(&cleaned.mesh.normals) {
+            let vertex = *origin as usize;
+            let displacements = self.skin.displacements_of(vertex);
+            let matrix = self.skin.blended(vertex, &self.matrices);
+            let mut bind = normal_before(matrix, normal.as_dvec3());
+            if displacements.iter().any(|displacement| displacement.normal != Vec3::ZERO) {
+                // The morphs add to a normal that is not yet of unit length.
+                let [_, morphed] = self.skin.morphed(vertex, &self.morph_weights);
+                let added = morphed - self.skin.normals[vertex].as_dvec3();
+                let length = morphed.length();
+                bind = bind * if length > 1e-6 { length } else { 1.0 } - added;
+            }
+            skin.positions.push(self.skin.positions[vertex]);
+            skin.normals.push(bind.as_vec3());
+            skin.influences.extend(self.skin.influences_of(vertex));
+            skin.influence_offsets.push(skin.influences.len() as u32);
+            morphs.displacements.extend(displacements);
+            morphs.offsets.push(morphs.displacements.len() as u32);
+        }
+        skin.morphs = (!morphs.displacements.is_empty()).then_some(morphs);
+        skin
+    }
+
+    /// Number of vertices that were welded to one that hangs differently, so that one of both moves as it should not.
+    pub fn torn_count(&self, cleaned: &Cleaned) -> usize {
+        let binding = |vertex: usize| {
+            (self.skin.positions[vertex], self.skin.influences_of(vertex), self.skin.displacements_of(vertex))
+        };
+        let torn = |(vertex, kept): &(usize, &Option<u32>)| {
+            kept.is_some_and(|kept| binding(*vertex) != binding(cleaned.origins[kept as usize] as usize))
+        };
+        cleaned.kept.iter().enumerate().filter(torn).count()
+    }
 }
 
-/// A normal under a linear map that need not keep angles. The cofactors stand for the inverse transpose, which a flattened
-/// limb would not have.
-fn turned(matrix: DMat4, normal: DVec3) -> DVec3 {
-    let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(|axis| axis.truncate());
-    let turned = y.cross(z) * normal.x + z.cross(x) * normal.y + x.cross(y) * normal.z;
-    turned.normalize_or_zero()
+/// Joints and weights of four shares of every vertex.
+struct JointSet {
+    indices: Vec<[u32; 4]>,
+    weights: Vec<[f32; 4]>,
+    joint_accessor: usize,
+    weight_accessor: usize,
 }
 
-/// For each vertex its joints and their shares.
-fn skin_influences(
-    file: &GltfFile,
-    primitive: &gltf::Primitive<'_>,
-    joints: &[u32],
-    vertex_count: usize,
-) -> Result<Vec<Vec<Influence>>, Found> {
-    let mut influences: Vec<Vec<Influence>> = vec![Vec::new(); vertex_count];
-    let mut place = Place::File;
+fn joint_sets(file: &GltfFile, primitive: &gltf::Primitive<'_>, vertex_count: usize) -> Result<Vec<JointSet>, Found> {
+    let mut sets = Vec::new();
     for set in 0.. {
         let (Some(indices), Some(weights)) =
             (primitive.get(&Semantic::Joints(set)), primitive.get(&Semantic::Weights(set)))
         else {
             break;
         };
-        place = Place::Accessor(weights.index());
-        let joint_place = Place::Accessor(indices.index());
-        let indices = file.read_indices::<4>(&indices, Dimensions::Vec4)?;
-        let weights = file.read::<4>(&weights, Dimensions::Vec4)?;
-        for (influences, (indices, weights)) in influences.iter_mut().zip(indices.iter().zip(&weights)) {
-            for (index, weight) in indices.iter().zip(weights).filter(|(_, weight)| **weight != 0.0) {
-                let Some(joint) = joints.get(*index as usize) else {
-                    let (index, count) = (i64::from(*index), joints.len());
-                    let fault = Fault::OutOfRange { what: "joint", index, count };
-                    return Err(Found::at(joint_place, fault));
-                };
-                influences.push(Influence { joint: *joint, weight: *weight });
+        check_most("body", "shares of joints", 4 * (sets.len() + 1) * vertex_count, MOST_SHARES)?;
+        for accessor in [&indices, &weights] {
+            check_count(accessor, vertex_count)?;
+        }
+        sets.push(JointSet {
+            indices: file.read_indices::<4>(&indices, Dimensions::Vec4)?,
+            weights: file.read::<4>(&weights, Dimensions::Vec4)?,
+            joint_accessor: indices.index(),
+            weight_accessor: weights.index(),
+        });
+    }
+    Ok(sets)
+}
+
+/// A morph target of one primitive.
+struct Target {
+    positions: Vec<[f32; 3]>,
+    normals: Vec<[f32; 3]>,
+}
+
+impl Target {
+    fn read(file: &GltfFile, target: &gltf::mesh::MorphTarget<'_>, vertex_count: usize) -> Result<Self, Found> {
+        let read = |accessor: Option<gltf::Accessor<'_>>| {
+            let Some(accessor) = accessor else { return Ok(Vec::new()) };
+            check_count(&accessor, vertex_count)?;
+            let vectors = file.read::<3>(&accessor, Dimensions::Vec3)?;
+            match vectors.iter().position(|vector| !Vec3::from(*vector).is_finite()) {
+                Some(broken) => {
+                    let fault = Fault::NotFinite(format!("displacement {broken} of a morph target"));
+                    Err(Found::at(Place::Accessor(accessor.index()), fault))
+                }
+                None => Ok(vectors),
             }
-        }
+        };
+        Ok(Self { positions: read(target.positions())?, normals: read(target.normals())? })
     }
-    for (vertex, influences) in influences.iter_mut().enumerate() {
-        let sum: f64 = influences.iter().map(|influence| f64::from(influence.weight)).sum();
-        if !(sum > 0.0 && sum.is_finite()) {
-            return Err(Found::malformed(place, format!("vertex {vertex} hangs on no joint")));
-        }
-        influences.iter_mut().for_each(|influence| influence.weight = (f64::from(influence.weight) / sum) as f32);
+
+    /// What the target does to a vertex; `None` for nothing.
+    fn displacement(&self, vertex: usize, target: u32) -> Option<Displacement> {
+        let part = |vectors: &[[f32; 3]]| vectors.get(vertex).map_or(Vec3::ZERO, |vector| Vec3::from(*vector));
+        let (position, normal) = (part(&self.positions), part(&self.normals));
+        (position != Vec3::ZERO || normal != Vec3::ZERO).then_some(Displacement { target, position, normal })
     }
-    Ok(influences)
+}
+
+fn check_count(accessor: &gltf::Accessor<'_>, vertex_count: usize) -> Result<(), Found> {
+    if accessor.count() == vertex_count {
+        return Ok(());
+    }
+    let message = format!("it has {} elements for {vertex_count} vertices", accessor.count());
+    Err(Found::malformed(Place::Accessor(accessor.index()), message))
 }
 
 fn add_triangles(
@@ -259,7 +301,7 @@ fn add_triangles(
         let (index, count) = (i64::from(*index), vertex_count);
         return Err(Found::at(place, Fault::OutOfRange { what: "vertex", index, count }));
     }
-    check_most("triangles", soup.triangles.len() + indices.len() / 3)?;
+    check_most("body", "triangles", soup.triangles.len() + indices.len() / 3, MOST)?;
     let corner = |at: usize| first + indices[at][0];
     let mut push = |a, b, c| soup.triangles.push([corner(a), corner(b), corner(c)]);
     match primitive.mode() {
@@ -270,11 +312,4 @@ fn add_triangles(
         _ => (0..indices.len() / 3).for_each(|i| push(3 * i, 3 * i + 1, 3 * i + 2)),
     }
     Ok(())
-}
-
-fn check_most(what: &str, count: usize) -> Result<(), Found> {
-    if count <= MOST {
-        return Ok(());
-    }
-    Err(Fault::Unsupported(format!("a body of more than {MOST} {what}")).into())
 }

@@ -2,11 +2,15 @@
 
 use crate::error::{Fault, Found, Place};
 use base64::Engine;
+use gltf::accessor::sparse::IndexType;
 use gltf::accessor::{DataType, Dimensions};
 use gltf::buffer::Source;
 use gltf::json::validation::Checked;
 use std::borrow::Cow;
 use std::path::Path;
+
+/// No sparse accessor has more elements that stand for themselves as zero.
+const MOST_ZEROS: usize = 1 << 23;
 
 /// A glTF file with its buffers.
 pub(crate) struct GltfFile {
@@ -23,6 +27,7 @@ impl GltfFile {
         let gltf::Gltf { document, mut blob } = gltf::Gltf::from_slice_without_validation(bytes).map_err(gltf_fault)?;
         let root = document.into_json();
         check_positions(&root)?;
+        check_channels(&root)?;
         let document = gltf::Document::from_json(root).map_err(gltf_fault)?;
         let buffers = document
             .buffers()
@@ -86,35 +91,80 @@ impl GltfFile {
             let message = format!("it must be {dimensions:?} and is {:?}", accessor.dimensions());
             return Err(Found::malformed(place, message));
         }
-        if accessor.sparse().is_some() {
-            return Err(Found::at(place, Fault::Unsupported("a sparse accessor".into())));
-        }
-        let Some(view) = accessor.view() else {
-            return Err(Found::malformed(place, "it has no data"));
-        };
         let size = accessor.data_type().size();
         let element = size * N;
-        let stride = view.stride().unwrap_or(element);
+        let count = accessor.count();
+        let values = |chunk: &[u8]| std::array::from_fn(|i| value(&chunk[i * size..(i + 1) * size]));
+        let mut elements: Vec<[T; N]> = match accessor.view() {
+            Some(view) => {
+                let stride = view.stride().unwrap_or(element);
+                let bytes = self.elements(&view, accessor.offset(), [stride, element], count, &place)?;
+                bytes.chunks(stride).map(values).collect()
+            }
+            None if accessor.sparse().is_some() => {
+                // These zeros take no place in the file that could bound their number.
+                check_most("accessor", "elements without data", count, MOST_ZEROS)?;
+                vec![[T::default(); N]; count]
+            }
+            None => return Err(Found::malformed(place, "it has no data")),
+        };
+        if let Some(sparse) = accessor.sparse() {
+            let (indices, new) = (sparse.indices(), sparse.values());
+            let index_size = match indices.index_type() {
+                IndexType::U8 => 1,
+                IndexType::U16 => 2,
+                IndexType::U32 => 4,
+            };
+            let (view, widths) = (indices.view(), [index_size; 2]);
+            let indices = self.elements(&view, indices.offset(), widths, sparse.count(), &place)?;
+            let new = self.elements(&new.view(), new.offset(), [element; 2], sparse.count(), &place)?;
+            for (index, new) in indices.chunks(index_size).zip(new.chunks(element)) {
+                let index = unsigned(index);
+                let Some(element) = elements.get_mut(index as usize) else {
+                    let fault = Fault::OutOfRange { what: "element", index: i64::from(index), count };
+                    return Err(Found::at(place, fault));
+                };
+                *element = values(new);
+            }
+        }
+        Ok(elements)
+    }
+
+    /// The bytes of `count` elements of a view, `stride` apart and each of a size.
+    fn elements(
+        &self,
+        view: &gltf::buffer::View<'_>,
+        offset: usize,
+        [stride, element]: [usize; 2],
+        count: usize,
+        place: &Place,
+    ) -> Result<&[u8], Found> {
         if stride < element {
             let message = format!("its stride of {stride} bytes is below the {element} of an element");
-            return Err(Found::malformed(place, message));
+            return Err(Found::malformed(place.clone(), message));
         }
         let buffer = &self.buffers[view.buffer().index()];
-        let start = view.offset() as u128 + accessor.offset() as u128;
+        let start = view.offset() as u128 + offset as u128;
         let view_end = (view.offset() as u128 + view.length() as u128).min(buffer.len() as u128);
-        let count = accessor.count();
         let needed = match count {
-            0 => 0,
+            0 => return Ok(&[]),
             _ => (count as u128 - 1) * stride as u128 + element as u128,
         };
         if start + needed > view_end {
             let what = format!("an accessor of {count} elements");
             let available = view_end.saturating_sub(start) as usize;
-            return Err(Found::at(place, Fault::Truncated { what, needed, available }));
+            return Err(Found::at(place.clone(), Fault::Truncated { what, needed, available }));
         }
-        let bytes = &buffer[start as usize..(start + needed) as usize];
-        Ok(bytes.chunks(stride).map(|chunk| std::array::from_fn(|i| value(&chunk[i * size..(i + 1) * size]))).collect())
+        Ok(&buffer[start as usize..(start + needed) as usize])
     }
+}
+
+/// Refuses what a small file can ask for in any number.
+pub(crate) fn check_most(whole: &str, what: &str, count: usize, most: usize) -> Result<(), Found> {
+    if count <= most {
+        return Ok(());
+    }
+    Err(Fault::Unsupported(format!("a {whole} of more than {most} {what}")).into())
 }
 
 fn unsigned(bytes: &[u8]) -> u32 {
@@ -179,6 +229,25 @@ fn check_positions(root: &gltf::json::Root) -> Result<(), Found> {
                 let index = i64::try_from(accessor).unwrap_or(i64::MAX);
                 let place = Place::Key(format!("meshes[{number}].primitives.attributes.POSITION"));
                 return Err(Found::at(place, Fault::OutOfRange { what: "accessor", index, count }));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The validation of the crate passes over what channels of clips move, and reading it would panic.
+fn check_channels(root: &gltf::json::Root) -> Result<(), Found> {
+    let count = root.nodes.len();
+    for (clip, animation) in root.animations.iter().enumerate() {
+        for (channel, target) in animation.channels.iter().map(|channel| &channel.target).enumerate() {
+            let place = |key: &str| Place::Key(format!("animations[{clip}].channels[{channel}].target.{key}"));
+            if matches!(target.path, Checked::Invalid) {
+                let message = "a clip moves \"translation\", \"rotation\", \"scale\" or \"weights\"";
+                return Err(Found::malformed(place("path"), message));
+            }
+            if target.node.value() >= count {
+                let index = i64::try_from(target.node.value()).unwrap_or(i64::MAX);
+                return Err(Found::at(place("node"), Fault::OutOfRange { what: "node", index, count }));
             }
         }
     }

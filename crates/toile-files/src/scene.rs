@@ -1,18 +1,13 @@
 //! Scenes from TOML.
 
-use crate::body::{BodyOptions, read_body};
 use crate::error::{FileError, Found, Place};
 use crate::fabric::{self, Problem};
 use crate::garment::read_garment;
-use crate::scene_toml::{
-    BodyToml, CornerToml, FrictionToml, PinToml, RuleToml, SceneToml, SheetToml, SphereToml, UnitsToml,
-};
-use crate::{source, toml_text};
+use crate::scene_toml::{CornerToml, FrictionToml, PinToml, RuleToml, SceneToml, SheetToml};
+use crate::{scene_body, source, toml_text};
 use glam::{DVec2, DVec3};
 use std::path::Path;
-use toile_scene::{
-    Body, Cloth, Fabric, Friction, Pin, Rule, Scene, Settings, Sheet, Sphere, SphereMotion, VelocityModification,
-};
+use toile_scene::{Body, Cloth, Fabric, Friction, Pin, Rule, Scene, Settings, Sheet, VelocityModification};
 
 /// Frames of a scene that does not say: two seconds at 60 per second.
 const FRAMES: u32 = 120;
@@ -63,11 +58,13 @@ fn convert(toml: SceneToml, stem: &str, folder: &Path) -> Result<SceneFile, Prob
     }
     let mut bodies = Vec::new();
     let mut warnings = Vec::new();
-    for body in toml.body {
-        bodies.push(Body::Mesh(convert_body(body, folder, &mut warnings)?));
+    for (index, body) in toml.body.iter().enumerate() {
+        let (body, new_warnings) = scene_body::convert_body(index, body, folder)?;
+        bodies.push(body);
+        warnings.extend(new_warnings);
     }
     for (index, sphere) in toml.sphere.iter().enumerate() {
-        bodies.push(Body::Sphere(convert_sphere(index, sphere)?));
+        bodies.push(Body::Sphere(scene_body::convert_sphere(index, sphere)?));
     }
     let frames = toml.frames.unwrap_or(FRAMES);
     if frames == 0 {
@@ -77,11 +74,11 @@ fn convert(toml: SceneToml, stem: &str, folder: &Path) -> Result<SceneFile, Prob
     Ok(SceneFile { scene: Scene { name, cloths, bodies, settings }, frames, warnings })
 }
 
-fn wrong(key: &str, message: impl Into<String>) -> Found {
+pub(crate) fn wrong(key: &str, message: impl Into<String>) -> Found {
     Found::malformed(Place::Key(key.into()), message)
 }
 
-fn positive(key: &str, value: f64) -> Result<f64, Found> {
+pub(crate) fn positive(key: &str, value: f64) -> Result<f64, Found> {
     if value.is_finite() && value > 0.0 {
         return Ok(value);
     }
@@ -95,7 +92,7 @@ fn part(key: &str, value: f64) -> Result<f64, Found> {
     Err(wrong(key, format!("it is {value} and must be 0 to 1")))
 }
 
-fn vector(key: &str, value: [f64; 3]) -> Result<DVec3, Found> {
+pub(crate) fn vector(key: &str, value: [f64; 3]) -> Result<DVec3, Found> {
     let vector = DVec3::from(value);
     if vector.is_finite() {
         return Ok(vector);
@@ -188,33 +185,4 @@ fn convert_sheet(index: usize, toml: &SheetToml, n: Option<u32>) -> Result<Sheet
         down,
         pins: toml.pins.iter().enumerate().map(pin).collect::<Result<_, _>>()?,
     })
-}
-
-fn convert_body(toml: BodyToml, folder: &Path, warnings: &mut Vec<String>) -> Result<toile_scene::Mesh, FileError> {
-    let metres_per_unit = match toml.units {
-        None | Some(UnitsToml::M) => 1.0,
-        Some(UnitsToml::Cm) => 0.01,
-        Some(UnitsToml::Mm) => 0.001,
-    };
-    let options = BodyOptions { metres_per_unit, clip: toml.clip, time: toml.time.unwrap_or(0.0) };
-    let body = read_body(&folder.join(&toml.file), &options)?;
-    warnings.extend(body.warnings.iter().map(|warning| format!("{}: {warning}", toml.file)));
-    Ok(body.mesh)
-}
-
-fn convert_sphere(index: usize, toml: &SphereToml) -> Result<Sphere, Found> {
-    let key = |name: &str| format!("sphere.{index}.{name}");
-    let motion = match (&toml.swing, &toml.steady) {
-        (Some(_), Some(_)) => return Err(wrong(&key("steady"), "a sphere swings or goes steadily, not both")),
-        (None, None) => SphereMotion::Still,
-        (None, Some(steady)) => SphereMotion::Steady {
-            velocity: vector(&key("steady.velocity"), steady.velocity.unwrap_or_default())?,
-            spin: vector(&key("steady.spin"), steady.spin.unwrap_or_default())?,
-        },
-        (Some(swing), None) => SphereMotion::Swing {
-            amplitude: vector(&key("swing.amplitude"), swing.amplitude)?,
-            period: positive(&key("swing.period"), swing.period)?,
-        },
-    };
-    Ok(Sphere { centre: vector(&key("centre"), toml.centre)?, radius: positive(&key("radius"), toml.radius)?, motion })
 }

@@ -133,10 +133,28 @@ pub(crate) struct GarmentToml {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BodyToml {
-    pub file: String,
+    pub file: Option<String>,
     pub units: Option<UnitsToml>,
     pub clip: Option<String>,
     pub time: Option<f64>,
+    /// Whether the body moves with the clip instead of standing at a time of it.
+    pub moving: Option<bool>,
+    /// Motion of the whole body.
+    pub keys: Option<Vec<KeyToml>>,
+    /// Folder of OBJ files instead of a file.
+    pub sequence: Option<String>,
+    /// Files of the sequence per second.
+    pub frame_rate: Option<f64>,
+}
+
+/// Where something rigid stands at a time.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct KeyToml {
+    pub time: f64,
+    pub translation: Option<[f64; 3]>,
+    /// Axis and angle in degrees.
+    pub rotation: Option<[f64; 4]>,
 }
 
 #[derive(Clone, Copy, Deserialize)]
@@ -153,14 +171,7 @@ pub(crate) struct SphereToml {
     pub centre: [f64; 3],
     pub radius: f64,
     pub swing: Option<SwingToml>,
-    pub steady: Option<SteadyToml>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct SteadyToml {
-    pub velocity: Option<[f64; 3]>,
-    pub spin: Option<[f64; 3]>,
+    pub keys: Option<Vec<KeyToml>>,
 }
 
 #[derive(Deserialize)]

@@ -18,6 +18,17 @@ pub(crate) struct Soup {
     highest: Option<(u32, Place)>,
 }
 
+/// The clean mesh with the way back to the vertices of the soup.
+#[derive(Debug)]
+pub(crate) struct Cleaned {
+    /// The clean mesh [m].
+    pub mesh: Mesh,
+    /// The first vertex of the soup at the place of each vertex of the mesh.
+    pub origins: Vec<u32>,
+    /// The vertex of the mesh that each vertex of the soup became; `None` where no triangle is left.
+    pub kept: Vec<Option<u32>>,
+}
+
 impl Soup {
     /// Adds a vertex. NaN, infinity and what f32 cannot hold are refused.
     pub fn push_vertex(&mut self, p: DVec3, place: impl FnOnce() -> Place) -> Result<(), Found> {
@@ -53,23 +64,14 @@ impl Soup {
 
     /// Scales to metres, welds equal positions, drops what has no area, turns the outside out, and gives every vertex a
     /// normal. What had to be mended is added to the warnings.
-    pub fn clean(self, metres_per_unit: f64, warnings: &mut Vec<String>) -> Result<Mesh, Found> {
-        self.clean_with_origins(metres_per_unit, warnings).map(|(mesh, _)| mesh)
-    }
-
-    /// As [`Soup::clean`], and for each vertex of the mesh the first vertex of the soup that stands there.
-    pub fn clean_with_origins(
-        self,
-        metres_per_unit: f64,
-        warnings: &mut Vec<String>,
-    ) -> Result<(Mesh, Vec<u32>), Found> {
+    pub fn clean(self, metres_per_unit: f64, warnings: &mut Vec<String>) -> Result<Cleaned, Found> {
         let mut warn = |count: usize, what: &str| {
             if count > 0 {
                 warnings.push(format!("{what}: {count}"));
             }
         };
         let file_vertex_count = self.positions.len();
-        let (mut positions, mut normals, remap, mut origins) = self.welded(metres_per_unit)?;
+        let Welded { mut positions, mut normals, remap } = self.welded(metres_per_unit)?;
         let mut triangles: Vec<[u32; 3]> = self.triangles.iter().map(|t| t.map(|i| remap[i as usize])).collect();
 
         let before = triangles.len();
@@ -81,8 +83,16 @@ impl Soup {
         if triangles.is_empty() {
             return Err(Fault::Empty(file_vertex_count).into());
         }
-        let isolated = remove_isolated(&mut positions, &mut normals, &mut origins, &mut triangles);
+        let renumbered = remove_isolated(&mut positions, &mut normals, &mut triangles);
+        let isolated = renumbered.iter().filter(|kept| kept.is_none()).count();
         warn(isolated, "isolated vertices removed");
+        let kept: Vec<Option<u32>> = remap.iter().map(|welded| renumbered[*welded as usize]).collect();
+        let mut origins = vec![u32::MAX; positions.len()];
+        for (vertex, kept) in kept.iter().enumerate().rev() {
+            if let Some(kept) = kept {
+                origins[*kept as usize] = vertex as u32;
+            }
+        }
 
         let edges = EdgeCounts::of(&triangles);
         warn(edges.boundary, "boundary edges (the body has holes)");
@@ -97,19 +107,15 @@ impl Soup {
         mesh.normals = mesh.area_weighted_normals();
         let replaced = take_good_normals(&mut mesh.normals, &normals);
         warn(replaced, "normals replaced (missing, not finite or against the winding)");
-        Ok((mesh, origins))
+        Ok(Cleaned { mesh, origins, kept })
     }
 
-    /// Distinct positions [m], the sums of their normals, the new index of each old vertex, and the first old vertex of each
-    /// new one.
-    #[allow(clippy::type_complexity)]
-    fn welded(&self, metres_per_unit: f64) -> Result<(Vec<Vec3>, Vec<DVec3>, Vec<u32>, Vec<u32>), Found> {
+    fn welded(&self, metres_per_unit: f64) -> Result<Welded, Found> {
         let mut known = HashMap::with_capacity(self.positions.len());
         let mut positions = Vec::with_capacity(self.positions.len());
         let mut normals: Vec<DVec3> = Vec::with_capacity(self.positions.len());
         let mut remap = Vec::with_capacity(self.positions.len());
-        let mut origins = Vec::with_capacity(self.positions.len());
-        for (vertex, (position, normal)) in self.positions.iter().zip(&self.normals).enumerate() {
+        for (position, normal) in self.positions.iter().zip(&self.normals) {
             // Adding zero makes −0 equal to +0 in bits.
             let p = (*position * metres_per_unit).as_vec3() + Vec3::ZERO;
             if !p.is_finite() {
@@ -119,14 +125,23 @@ impl Soup {
             let index = *known.entry(p.to_array().map(f32::to_bits)).or_insert_with(|| {
                 positions.push(p);
                 normals.push(DVec3::ZERO);
-                origins.push(vertex as u32);
                 positions.len() as u32 - 1
             });
             normals[index as usize] += *normal;
             remap.push(index);
         }
-        Ok((positions, normals, remap, origins))
+        Ok(Welded { positions, normals, remap })
     }
+}
+
+/// A soup without equal positions.
+struct Welded {
+    /// Distinct positions [m].
+    positions: Vec<Vec3>,
+    /// Sums of their normals.
+    normals: Vec<DVec3>,
+    /// The new index of each old vertex.
+    remap: Vec<u32>,
 }
 
 fn has_area(positions: &[Vec3], triangle: [u32; 3]) -> bool {
@@ -149,35 +164,22 @@ fn remove_duplicates(triangles: &mut Vec<[u32; 3]>) {
     }
 }
 
-/// Removes vertices of no triangle and returns how many there were: a stray point would enlarge the maps.
+/// Removes vertices of no triangle: a stray point would enlarge the maps. Returns the new index of each vertex.
 fn remove_isolated(
     positions: &mut Vec<Vec3>,
     normals: &mut Vec<DVec3>,
-    origins: &mut Vec<u32>,
     triangles: &mut [[u32; 3]],
-) -> usize {
+) -> Vec<Option<u32>> {
     let mut used = vec![false; positions.len()];
     triangles.iter().flatten().for_each(|i| used[*i as usize] = true);
-    let mut kept = 0;
-    let remap: Vec<u32> = used
-        .iter()
-        .map(|used| {
-            let index = kept;
-            kept += u32::from(*used);
-            index
-        })
-        .collect();
-    let isolated = positions.len() - kept as usize;
-    if isolated > 0 {
-        let mut flags = used.iter();
-        positions.retain(|_| *flags.next().expect("one flag per vertex"));
-        let mut flags = used.iter();
-        normals.retain(|_| *flags.next().expect("one flag per vertex"));
-        let mut flags = used.iter();
-        origins.retain(|_| *flags.next().expect("one flag per vertex"));
-        triangles.iter_mut().flatten().for_each(|i| *i = remap[*i as usize]);
-    }
-    isolated
+    let mut flags = used.iter();
+    positions.retain(|_| *flags.next().expect("one flag per vertex"));
+    let mut flags = used.iter();
+    normals.retain(|_| *flags.next().expect("one flag per vertex"));
+    let mut next = 0..;
+    let renumbered: Vec<Option<u32>> = used.into_iter().map(|used| used.then(|| next.next()).flatten()).collect();
+    triangles.iter_mut().flatten().for_each(|i| *i = renumbered[*i as usize].expect("a used vertex"));
+    renumbered
 }
 
 /// What is unusual about the edges of a mesh.

@@ -89,7 +89,7 @@ impl MovingBody {
         match &self.poser {
             Poser::Joints(joints) => joints.record(device, encoder, &joints.rig.pose(time)),
             Poser::Sequence(sequence) => {
-                let [positions, normals] = sequence.at(time);
+                let [positions, normals] = sequence.at(time).unwrap_or_default();
                 for (values, target) in [(positions, &self.surface.positions), (normals, &self.surface.normals)] {
                     let upload = upload_vec3s(device, "sequence upload", &values, wgpu::BufferUsages::COPY_SRC);
                     encoder.copy_buffer_to_buffer(&upload, 0, target, 0, upload.size());

@@ -305,7 +305,7 @@ impl Solver {
                 radius: sphere.radius as f32 + self.settings.thickness,
                 velocity: ((next - centre) / dt).as_vec3(),
                 after_maps: u32::from(self.sphere_after_maps),
-                spin: sphere.spin().as_vec3(),
+                spin: sphere.spin(start).as_vec3(),
             })
         });
         self.record_moving_uniform(device, encoder, "ball", balls);

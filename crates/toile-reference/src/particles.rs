@@ -60,7 +60,7 @@ impl Ball {
             centre: start.as_vec3(),
             radius: sphere.radius as f32 + settings.thickness,
             velocity: ((end - start) / dt).as_vec3(),
-            spin: sphere.spin().as_vec3(),
+            spin: sphere.spin(step as f64 * dt).as_vec3(),
         }
     }
 }

@@ -4,25 +4,29 @@
 //! once and everything later is derived from them. Nothing here computes a step.
 
 mod body;
+mod clip;
 mod fabric;
 mod garment;
 mod mesh;
 mod moving;
 mod outline;
 mod rig;
+mod rigid;
 mod settings;
 mod sheet;
 mod skin;
 
 pub use body::{Body, Sphere, SphereMotion};
+pub use clip::{Channel, Clip, Interpolation, Keys};
 pub use fabric::Fabric;
 pub use garment::{Curve, Edge, EdgeRef, Garment, Panel, Placement, Seam};
 pub use mesh::Mesh;
 pub use moving::{MeshSequence, Motion, MovingMesh};
-pub use rig::{Interpolation, Joint, Keys, Node, Property, Rig, RigidKey, Track, Transform};
+pub use rig::{Joint, LocalTransform, OwnAncestor, Rig, RigNode};
+pub use rigid::{RigidKey, RigidMotion};
 pub use settings::{Friction, Rule, Settings, VelocityModification};
 pub use sheet::{Pin, Sheet};
-pub use skin::{Displacement, Influence, Morphs, Pose, Skin};
+pub use skin::{Displacement, Influence, Morphs, Pose, Skin, normal_before, turned_normal};
 
 /// Everything a run needs: the cloth, what it collides with, and how it is simulated.
 #[derive(Clone, Debug)]

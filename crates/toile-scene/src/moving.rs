@@ -1,6 +1,7 @@
 //! Meshes that move: skinned, rigid, or given frame by frame.
 
-use crate::{Influence, Mesh, Rig, RigidKey, Skin};
+use crate::clip::Moment;
+use crate::{Mesh, Rig, RigidKey, Skin};
 use glam::{DVec3, Vec3};
 
 /// A mesh that moves.
@@ -31,109 +32,96 @@ pub enum Motion {
 pub struct MeshSequence {
     /// Frames per second [1/s].
     pub frame_rate: f64,
-    /// Positions [m] and unit normals of each frame, each of shape [vertex_count]; at least one frame.
+    /// Positions [m] and unit normals of each frame, each of shape [vertex_count].
     pub frames: Vec<[Vec<Vec3>; 2]>,
 }
 
 impl MovingMesh {
-    /// A rigid body that goes from key to key.
-    ///
-    /// # Panics
-    /// When there is no key.
-    pub fn rigid(mesh: &Mesh, keys: &[RigidKey]) -> Self {
-        let vertex_count = mesh.positions.len() as u32;
-        let skin = Skin {
-            positions: mesh.positions.clone(),
-            normals: mesh.normals.clone(),
-            influence_offsets: (0..=vertex_count).collect(),
-            influences: vec![Influence { joint: 0, weight: 1.0 }; mesh.positions.len()],
-            morphs: None,
-        };
-        let motion = Motion::Skinned { skin, rig: Rig::rigid(keys) };
-        let mut body = Self { mesh: mesh.clone(), motion };
-        body.mesh = body.at(0.0);
-        body
+    /// A mesh that moves as a whole by keys: it is given as it stands without any motion.
+    pub fn rigid(mesh: Mesh, keys: Vec<RigidKey>) -> Self {
+        let mut moving = Self { motion: Motion::Skinned { skin: Skin::rigid(&mesh), rig: Rig::rigid(keys) }, mesh };
+        moving.mesh = moving.at(0.0);
+        moving
     }
 
-    /// The mesh at a time [s], computed in f64.
+    /// The mesh at a time [s], computed in f64: every vertex, so for pictures and exact measurement, not for each frame.
     pub fn at(&self, time: f64) -> Mesh {
         let [positions, normals] = match &self.motion {
-            Motion::Sequence(sequence) => sequence.at(time),
-            Motion::Skinned { skin, rig } => skinned(skin, rig, time),
+            Motion::Skinned { skin, rig } => skin.posed(&rig.joint_matrices(time), &rig.morph_weights(time)),
+            Motion::Sequence(sequence) => {
+                sequence.at(time).unwrap_or_else(|| [self.mesh.positions.clone(), self.mesh.normals.clone()])
+            }
         };
         Mesh { positions, normals, triangles: self.mesh.triangles.clone() }
     }
 
-    /// End of the motion [s].
+    /// Time of the last key or frame [s].
     pub fn duration(&self) -> f64 {
         match &self.motion {
-            Motion::Skinned { rig, .. } => rig.duration,
-            Motion::Sequence(sequence) => (sequence.frames.len() - 1) as f64 / sequence.frame_rate,
+            Motion::Skinned { rig, .. } => rig.duration(),
+            Motion::Sequence(sequence) => sequence.duration(),
         }
     }
 
-    /// Whether the motion ends as it begins, so that it repeats.
+    /// Whether the motion repeats after its end; see [`Rig::is_closed`]. A sequence stands still.
     pub fn is_closed(&self) -> bool {
         match &self.motion {
             Motion::Skinned { rig, .. } => rig.is_closed(),
             Motion::Sequence(_) => false,
         }
     }
-
-    /// Smallest and largest corner of the body at each of some times [m]. It places every vertex: for set-up, not for a frame.
-    pub fn bounds(&self, times: impl IntoIterator<Item = f64>) -> Vec<[Vec3; 2]> {
-        let bounds = |time| {
-            let [positions, _] = match &self.motion {
-                Motion::Sequence(sequence) => sequence.at(time),
-                Motion::Skinned { skin, rig } => skinned(skin, rig, time),
-            };
-            let start = [Vec3::INFINITY, Vec3::NEG_INFINITY];
-            positions.iter().fold(start, |[low, high], p| [low.min(*p), high.max(*p)])
-        };
-        times.into_iter().map(bounds).collect()
-    }
 }
 
 impl MeshSequence {
-    /// Positions [m] and unit normals at a time [s].
-    ///
-    /// # Panics
-    /// When there is no frame.
-    pub fn at(&self, time: f64) -> [Vec<Vec3>; 2] {
-        let place = (time * self.frame_rate).clamp(0.0, (self.frames.len() - 1) as f64);
-        let first = place.floor() as usize;
-        let share = (place - place.floor()) as f32;
-        let [a, b] = [&self.frames[first], &self.frames[(first + 1).min(self.frames.len() - 1)]];
-        let between = |values: usize| a[values].iter().zip(&b[values]).map(move |(a, b)| a.lerp(*b, share));
-        [between(0).collect(), between(1).map(|normal| normal.normalize_or(Vec3::Y)).collect()]
+    /// Time of the last frame [s]; the first is at 0.
+    pub fn duration(&self) -> f64 {
+        self.frames.len().saturating_sub(1) as f64 / self.frame_rate
+    }
+
+    /// Positions [m] and unit normals at a time [s]; `None` without a frame.
+    pub fn at(&self, time: f64) -> Option<[Vec<Vec3>; 2]> {
+        if self.frames.is_empty() {
+            return None;
+        }
+        let (last, share) = match Moment::of(|frame| frame as f64 / self.frame_rate, self.frames.len(), time) {
+            Moment::At(frame) => return Some(self.frames[frame].clone()),
+            Moment::Between { last, share, .. } => (last, share),
+        };
+        let pairs = |part: usize| self.frames[last][part].iter().zip(&self.frames[last + 1][part]);
+        let between = |(a, b): (&Vec3, &Vec3)| a.as_dvec3().lerp(b.as_dvec3(), share);
+        let positions = pairs(0).map(|pair| between(pair).as_vec3()).collect();
+        let normals = pairs(1).map(|pair| between(pair).normalize_or(DVec3::Y).as_vec3()).collect();
+        Some([positions, normals])
     }
 }
 
-fn skinned(skin: &Skin, rig: &Rig, time: f64) -> [Vec<Vec3>; 2] {
-    let pose = rig.pose(time);
-    let mut posed = [Vec::with_capacity(skin.positions.len()), Vec::with_capacity(skin.positions.len())];
-    for vertex in 0..skin.positions.len() {
-        let mut position = skin.positions[vertex].as_dvec3();
-        let mut normal = skin.normals[vertex].as_dvec3();
-        if let Some(morphs) = &skin.morphs {
-            let range = morphs.offsets[vertex] as usize..morphs.offsets[vertex + 1] as usize;
-            for displacement in &morphs.displacements[range] {
-                let weight = f64::from(pose.morph_weights[displacement.target as usize]);
-                position += displacement.position.as_dvec3() * weight;
-                normal += displacement.normal.as_dvec3() * weight;
-            }
-        }
-        let range = skin.influence_offsets[vertex] as usize..skin.influence_offsets[vertex + 1] as usize;
-        let mut rows = [glam::DVec4::ZERO; 3];
-        for influence in &skin.influences[range] {
-            for (row, of_joint) in rows.iter_mut().zip(pose.joints[influence.joint as usize]) {
-                *row += of_joint.as_dvec4() * f64::from(influence.weight);
-            }
-        }
-        let [x, y, z] = rows.map(glam::DVec4::truncate);
-        posed[0].push(DVec3::from_array(rows.map(|row| row.truncate().dot(position) + row.w)).as_vec3());
-        let turned = DVec3::new(y.cross(z).dot(normal), z.cross(x).dot(normal), x.cross(y).dot(normal));
-        posed[1].push(turned.normalize_or(DVec3::Y).as_vec3());
+#[cfg(test)]
+mod tests {
+    use super::{MeshSequence, Motion, MovingMesh};
+    use crate::{Mesh, RigidKey};
+    use glam::{DQuat, Vec3, dvec3, vec3};
+
+    #[test]
+    fn a_sequence_is_linear_between_its_frames_and_still_outside() {
+        let frame = |x: f32, normal| [vec![vec3(x, 0.0, 0.0)], vec![normal]];
+        let frames = vec![frame(0.0, Vec3::X), frame(1.0, Vec3::Y), frame(-1.0, Vec3::Y)];
+        let mesh = Mesh { positions: vec![Vec3::ZERO], normals: vec![Vec3::X], triangles: vec![] };
+        let moving = MovingMesh { mesh, motion: Motion::Sequence(MeshSequence { frame_rate: 4.0, frames }) };
+        assert_eq!((moving.duration(), moving.is_closed()), (0.5, false));
+        let x = [-1.0, 0.0, 0.125, 0.25, 0.3125, 0.5, 3.0].map(|time| moving.at(time).positions[0].x);
+        assert_eq!(x, [0.0, 0.0, 0.5, 1.0, 0.5, -1.0, -1.0]);
+        let half = moving.at(0.125).normals[0];
+        assert!(half.distance(vec3(0.5f32.sqrt(), 0.5f32.sqrt(), 0.0)) < 1e-6, "{half}");
     }
-    posed
+
+    #[test]
+    fn a_rigid_mesh_stands_where_its_first_key_puts_it() {
+        let mesh = Mesh { positions: vec![Vec3::X], normals: vec![Vec3::X], triangles: vec![] };
+        let rotation = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2);
+        let key = |time, x| RigidKey { time, translation: dvec3(x, 0.0, 1.0), rotation };
+        let moving = MovingMesh::rigid(mesh, vec![key(0.0, 2.0), key(1.0, 3.0)]);
+        assert!(moving.mesh.positions[0].distance(vec3(2.0, 1.0, 1.0)) < 1e-6);
+        assert!(moving.mesh.normals[0].distance(Vec3::Y) < 1e-6);
+        assert!(moving.at(0.5).positions[0].distance(vec3(2.5, 1.0, 1.0)) < 1e-6);
+    }
 }

@@ -1,214 +1,61 @@
 //! Joints and how they move.
 
-use crate::{Pose, Skin};
-use glam::{DMat4, DQuat, DVec3, DVec4, Vec4};
+use crate::clip::{Channel, Clip, Interpolation, Keys, unit};
+use crate::{Pose, RigidKey};
+use glam::{DMat4, DQuat, DVec3};
+use std::sync::Arc;
 
-/// How near the joints must come to where they began for a clip to be closed: rows of their matrices [m, 1].
-const CLOSED: f32 = 1e-3;
+/// How far a joint may end from where it starts [m] when its clip is called closed.
+const CLOSED_DISTANCE: f64 = 1e-3;
 
-/// Joints and how they move.
+/// How much a joint may end turned or scaled against its start [1] when its clip is called closed: 1 mm at 1 m.
+const CLOSED_TURN: f64 = 1e-3;
+
+/// Joints and how they move. Immutable; clones share their data.
 #[derive(Clone, Debug)]
-pub struct Rig {
-    /// Nodes that move the joints, parents before children.
-    pub nodes: Vec<Node>,
-    /// The joints, shape [joint_count].
-    pub joints: Vec<Joint>,
-    /// How the nodes move; empty for a rig that stands still.
-    pub tracks: Vec<Track>,
-    /// Weights of the morph targets where no track moves them, shape [target_count].
-    pub morph_weights: Vec<f64>,
-    /// End of the motion [s].
-    pub duration: f64,
-    /// Length of the unit of the nodes [m].
-    pub metres_per_unit: f64,
+pub struct Rig(Arc<Parts>);
+
+#[derive(Debug)]
+struct Parts {
+    nodes: Vec<RigNode>,
+    /// Every node after its parent.
+    order: Vec<usize>,
+    joints: Vec<Joint>,
+    morph_weights: Vec<f64>,
+    clip: Option<Clip>,
+    metres_per_unit: f64,
+    is_closed: bool,
 }
 
-/// A node of a rig.
-#[derive(Clone, Debug)]
-pub struct Node {
-    /// Index of its parent, which comes before it.
-    pub parent: Option<u32>,
-    /// Its transform relative to the parent.
-    pub local: Transform,
+/// A place that moves relative to its parent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RigNode {
+    /// Index of the node that carries it; `None` stands in the world.
+    pub parent: Option<usize>,
+    /// Where it stands when no clip moves it.
+    pub transform: LocalTransform,
 }
 
-/// A transform relative to a parent.
-#[derive(Clone, Copy, Debug)]
-pub enum Transform {
-    /// As a matrix; no track can move it.
+/// Transform of a node relative to its parent, in the unit of the rig.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LocalTransform {
+    /// An affine matrix, which no clip can move.
     Matrix(DMat4),
-    /// In parts, which tracks can move.
+    /// Scale first, then rotation, then translation.
     Parts {
-        /// Translation, in the unit of the rig.
+        /// In the unit of the rig.
         translation: DVec3,
-        /// Rotation.
+        /// Need not be of unit length.
         rotation: DQuat,
-        /// Scale.
+        /// Factors along the node's own axes [1].
         scale: DVec3,
     },
 }
 
-/// A joint: a node, and where the bind pose has it.
-#[derive(Clone, Debug)]
-pub struct Joint {
-    /// Name, such as "upperarm_l"; may be empty.
-    pub name: String,
-    /// Index of its node.
-    pub node: u32,
-    /// From bind space to the space of the node.
-    pub inverse_bind: DMat4,
-}
+impl LocalTransform {
+    /// No motion against the parent.
+    pub const IDENTITY: Self = Self::Parts { translation: DVec3::ZERO, rotation: DQuat::IDENTITY, scale: DVec3::ONE };
 
-/// How one property of a node moves.
-#[derive(Clone, Debug)]
-pub struct Track {
-    /// Index of the node.
-    pub node: u32,
-    /// What moves.
-    pub property: Property,
-    /// Its values over time.
-    pub keys: Keys,
-}
-
-/// What a track moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Property {
-    /// Translation, three values per key.
-    Translation,
-    /// Rotation, a quaternion xyzw per key.
-    Rotation,
-    /// Scale, three values per key.
-    Scale,
-    /// Weights of morph targets from this index on.
-    MorphWeights(u32),
-}
-
-/// Values over time. Before the first and after the last key they stand still.
-#[derive(Clone, Debug)]
-pub struct Keys {
-    /// Times, ascending, at least one [s].
-    pub times: Vec<f64>,
-    /// Values of each key, one key after the other: `width` of them, or three times as many with [`Interpolation::Cubic`].
-    pub values: Vec<f64>,
-    /// Values per key.
-    pub width: usize,
-    /// What is between two keys.
-    pub interpolation: Interpolation,
-}
-
-/// What is between two keys.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Interpolation {
-    /// The value of the earlier key.
-    Step,
-    /// The straight way; for rotations, the shortest arc.
-    Linear,
-    /// Cubic splines: each key is in-tangent, value, out-tangent.
-    Cubic,
-}
-
-/// Where a rigid body is at a time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RigidKey {
-    /// Time [s].
-    pub time: f64,
-    /// Displacement from where the body is read [m].
-    pub translation: DVec3,
-    /// Rotation around the origin, before the displacement.
-    pub rotation: DQuat,
-}
-
-impl Rig {
-    /// The rig of a rigid body: one joint that goes from key to key, straight on and by the shortest arc.
-    ///
-    /// # Panics
-    /// When there is no key.
-    pub fn rigid(keys: &[RigidKey]) -> Self {
-        let times: Vec<f64> = keys.iter().map(|key| key.time).collect();
-        let duration = *times.last().expect("a rigid motion has a key");
-        let track = |property, width, values: Vec<f64>| Track {
-            node: 0,
-            property,
-            keys: Keys { times: times.clone(), values, width, interpolation: Interpolation::Linear },
-        };
-        let identity = Transform::Parts { translation: DVec3::ZERO, rotation: DQuat::IDENTITY, scale: DVec3::ONE };
-        Self {
-            nodes: vec![Node { parent: None, local: identity }],
-            joints: vec![Joint { name: String::new(), node: 0, inverse_bind: DMat4::IDENTITY }],
-            tracks: vec![
-                track(Property::Translation, 3, keys.iter().flat_map(|key| key.translation.to_array()).collect()),
-                track(Property::Rotation, 4, keys.iter().flat_map(|key| key.rotation.to_array()).collect()),
-            ],
-            morph_weights: Vec::new(),
-            duration,
-            metres_per_unit: 1.0,
-        }
-    }
-
-    /// Where the joints stand at a time [s]. A closed motion goes on from its start; any other stands still after its end.
-    pub fn pose(&self, time: f64) -> Pose {
-        let time = if time > self.duration && self.is_closed() { time.rem_euclid(self.duration) } else { time };
-        self.pose_within(time)
-    }
-
-    /// Whether the motion ends as it begins, so that it can be repeated.
-    pub fn is_closed(&self) -> bool {
-        let [start, end] = [0.0, self.duration].map(|time| self.pose_within(time));
-        let near = |(a, b): (&[Vec4; 3], &[Vec4; 3])| a.iter().zip(b).all(|(a, b)| a.abs_diff_eq(*b, CLOSED));
-        self.duration > 0.0 && start.joints.iter().zip(&end.joints).all(near)
-    }
-
-    /// Index of the joint on which each vertex of a skin hangs most, shape [vertex_count].
-    pub fn main_joints(skin: &Skin) -> Vec<u32> {
-        let main = |range: &[u32]| {
-            let influences = &skin.influences[range[0] as usize..range[1] as usize];
-            influences.iter().max_by(|a, b| a.weight.total_cmp(&b.weight)).map_or(0, |influence| influence.joint)
-        };
-        skin.influence_offsets.windows(2).map(main).collect()
-    }
-
-    fn pose_within(&self, time: f64) -> Pose {
-        let worlds = self.worlds(time);
-        let scale = DMat4::from_scale(DVec3::splat(self.metres_per_unit));
-        let rows = |joint: &Joint| {
-            let matrix = scale * worlds[joint.node as usize] * joint.inverse_bind;
-            [0, 1, 2].map(|row| matrix.row(row).as_vec4())
-        };
-        let mut weights = self.morph_weights.clone();
-        for track in &self.tracks {
-            if let Property::MorphWeights(first) = track.property {
-                weights[first as usize..].iter_mut().zip(track.keys.at(time, false)).for_each(|(w, value)| *w = value);
-            }
-        }
-        Pose {
-            joints: self.joints.iter().map(rows).collect(),
-            morph_weights: weights.into_iter().map(|weight| weight as f32).collect(),
-        }
-    }
-
-    /// World transform of every node at a time [s], in the unit of the rig.
-    pub fn worlds(&self, time: f64) -> Vec<DMat4> {
-        let mut locals: Vec<Transform> = self.nodes.iter().map(|node| node.local).collect();
-        for track in &self.tracks {
-            let Transform::Parts { translation, rotation, scale } = &mut locals[track.node as usize] else { continue };
-            let value = track.keys.at(time, track.property == Property::Rotation);
-            match track.property {
-                Property::Translation => *translation = DVec3::from_slice(&value),
-                Property::Scale => *scale = DVec3::from_slice(&value),
-                Property::Rotation => *rotation = DQuat::from_slice(&value),
-                Property::MorphWeights(_) => {}
-            }
-        }
-        let mut worlds: Vec<DMat4> = Vec::with_capacity(locals.len());
-        for (node, local) in self.nodes.iter().zip(&locals) {
-            let above = node.parent.map_or(DMat4::IDENTITY, |parent| worlds[parent as usize]);
-            worlds.push(above * local.matrix());
-        }
-        worlds
-    }
-}
-
-impl Transform {
     fn matrix(self) -> DMat4 {
         match self {
             Self::Matrix(matrix) => matrix,
@@ -219,47 +66,355 @@ impl Transform {
     }
 }
 
-/// A zero quaternion would turn into NaN and hide which node is at fault.
-fn unit(rotation: DQuat) -> DQuat {
-    DQuat::from_vec4(DVec4::from(rotation).normalize_or(DVec4::W))
+/// What vertices hang on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// Name of its node.
+    pub name: String,
+    /// Index of its node.
+    pub node: usize,
+    /// From bind space to the space of the node.
+    pub inverse_bind: DMat4,
 }
 
-impl Keys {
-    /// The values at a time [s]; quaternions go by the shortest arc.
-    fn at(&self, time: f64, quaternion: bool) -> Vec<f64> {
-        let cubic = self.interpolation == Interpolation::Cubic;
-        let parts = if cubic { 3 } else { 1 };
-        let value = |key: usize, part: usize| {
-            let first = (key * parts + part) * self.width;
-            &self.values[first..first + self.width]
-        };
-        let middle = usize::from(cubic);
-        let next = self.times.partition_point(|key| *key <= time);
-        if next == 0 {
-            return value(0, middle).to_vec();
-        }
-        let last = next - 1;
-        if next == self.times.len() || self.interpolation == Interpolation::Step {
-            return value(last, middle).to_vec();
-        }
-        let span = self.times[next] - self.times[last];
-        let t = (time - self.times[last]) / span;
-        if self.interpolation == Interpolation::Linear {
-            let [a, b] = [value(last, 0), value(next, 0)];
-            if quaternion {
-                let [a, b] = [a, b].map(|q| unit(DQuat::from_slice(q)));
-                return a.slerp(b, t).to_array().to_vec();
+/// A node that carries itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OwnAncestor {
+    /// Index of the node.
+    pub node: usize,
+}
+
+impl Rig {
+    /// A rig of nodes in any order, joints, resting weights of the morph targets [1], what moves, and the length of its
+    /// unit [m].
+    ///
+    /// # Errors
+    ///
+    /// [`OwnAncestor`] when the parents of a node lead in a circle.
+    ///
+    /// # Panics
+    ///
+    /// When a parent, joint or channel points at nothing, a channel moves a node that has a matrix, or its values do not fit
+    /// its times.
+    pub fn new(
+        nodes: Vec<RigNode>,
+        joints: Vec<Joint>,
+        morph_weights: Vec<f64>,
+        clip: Option<Clip>,
+        metres_per_unit: f64,
+    ) -> Result<Self, OwnAncestor> {
+        assert!(metres_per_unit > 0.0, "the length of a unit is positive");
+        assert!(joints.iter().all(|joint| joint.node < nodes.len()), "every joint has a node");
+        for channel in clip.iter().flat_map(|clip| &clip.channels) {
+            let (valid, moves) = match channel {
+                Channel::Translation { node, keys } | Channel::Scale { node, keys } => (keys.is_valid(), Some(*node)),
+                Channel::Rotation { node, keys } => (keys.is_valid(), Some(*node)),
+                Channel::MorphWeight { target, keys } => {
+                    assert!(*target < morph_weights.len(), "a channel moves a morph target that exists");
+                    (keys.is_valid(), None)
+                }
+            };
+            assert!(valid, "the values of a channel fit its times, which do not fall");
+            if let Some(node) = moves {
+                let has_parts = matches!(nodes[node].transform, LocalTransform::Parts { .. });
+                assert!(has_parts, "a channel moves a node with translation, rotation and scale");
             }
-            return a.iter().zip(b).map(|(a, b)| a + (b - a) * t).collect();
         }
-        let (t2, t3) = (t * t, t * t * t);
-        (0..self.width)
-            .map(|i| {
-                (2.0 * t3 - 3.0 * t2 + 1.0) * value(last, 1)[i]
-                    + span * (t3 - 2.0 * t2 + t) * value(last, 2)[i]
-                    + (3.0 * t2 - 2.0 * t3) * value(next, 1)[i]
-                    + span * (t3 - t2) * value(next, 0)[i]
-            })
-            .collect()
+        let order = parents_first(&nodes)?;
+        let mut parts = Parts { nodes, order, joints, morph_weights, clip, metres_per_unit, is_closed: false };
+        parts.is_closed = parts.ends_as_it_starts();
+        Ok(Self(Arc::new(parts)))
+    }
+
+    /// A rig of one joint, whose bind space is the world, that moves by keys and stands still outside of them.
+    pub fn rigid(keys: Vec<RigidKey>) -> Self {
+        let times: Vec<f64> = keys.iter().map(|key| key.time).collect();
+        let clip = times.last().map(|duration| Clip {
+            name: "rigid".into(),
+            duration: duration.max(0.0),
+            channels: vec![
+                Channel::Translation {
+                    node: 0,
+                    keys: Keys {
+                        interpolation: Interpolation::Linear,
+                        times: times.clone(),
+                        values: keys.iter().map(|key| key.translation).collect(),
+                    },
+                },
+                Channel::Rotation {
+                    node: 0,
+                    keys: Keys {
+                        interpolation: Interpolation::Linear,
+                        times: times.clone(),
+                        values: keys.iter().map(|key| key.rotation).collect(),
+                    },
+                },
+            ],
+        });
+        Self(Arc::new(Parts {
+            nodes: vec![RigNode { parent: None, transform: LocalTransform::IDENTITY }],
+            order: vec![0],
+            joints: vec![Joint { name: "body".into(), node: 0, inverse_bind: DMat4::IDENTITY }],
+            morph_weights: Vec::new(),
+            clip,
+            metres_per_unit: 1.0,
+            // Keys say when it moves; they are no cycle even where the last one leads back.
+            is_closed: false,
+        }))
+    }
+
+    /// Where the joints stand at a time [s], rounded to f32. A closed clip repeats; any other stands still after its end.
+    pub fn pose(&self, time: f64) -> Pose {
+        let rows = |matrix: &DMat4| [0, 1, 2].map(|row| matrix.row(row).as_vec4());
+        Pose {
+            joints: self.joint_matrices(time).iter().map(rows).collect(),
+            morph_weights: self.morph_weights(time).into_iter().map(|weight| weight as f32).collect(),
+        }
+    }
+
+    /// From bind space to the world [m] for each joint at a time [s].
+    pub fn joint_matrices(&self, time: f64) -> Vec<DMat4> {
+        let world = self.node_transforms(time);
+        let metres = DMat4::from_scale(DVec3::splat(self.0.metres_per_unit));
+        self.0.joints.iter().map(|joint| metres * world[joint.node] * joint.inverse_bind).collect()
+    }
+
+    /// World transform of each node at a time [s], in the unit of the rig.
+    pub fn node_transforms(&self, time: f64) -> Vec<DMat4> {
+        self.0.node_transforms(self.clip_time(time))
+    }
+
+    /// Weight of each morph target [1] at a time [s].
+    pub fn morph_weights(&self, time: f64) -> Vec<f64> {
+        self.0.morph_weights(self.clip_time(time))
+    }
+
+    /// Length of the clip [s]; 0 without one.
+    pub fn duration(&self) -> f64 {
+        self.0.duration()
+    }
+
+    /// Whether the clip ends as it starts, every joint within 1 mm and a thousandth in turn and scale, every morph weight
+    /// within a thousandth. Then it repeats. A rig without a clip and one of rigid keys are not closed.
+    pub fn is_closed(&self) -> bool {
+        self.0.is_closed
+    }
+
+    /// The joints, in the order of [`Pose::joints`].
+    pub fn joints(&self) -> &[Joint] {
+        &self.0.joints
+    }
+
+    /// Names of the joints, in the order of [`Pose::joints`].
+    pub fn joint_names(&self) -> impl Iterator<Item = &str> {
+        self.0.joints.iter().map(|joint| joint.name.as_str())
+    }
+
+    /// The clip, if anything moves.
+    pub fn clip(&self) -> Option<&Clip> {
+        self.0.clip.as_ref()
+    }
+
+    /// The time in the clip at a time of the scene [s].
+    fn clip_time(&self, time: f64) -> f64 {
+        let duration = self.duration();
+        if self.is_closed() && time > duration { time.rem_euclid(duration) } else { time }
+    }
+}
+
+impl Parts {
+    fn duration(&self) -> f64 {
+        self.clip.as_ref().map_or(0.0, |clip| clip.duration)
+    }
+
+    fn node_transforms(&self, time: f64) -> Vec<DMat4> {
+        let mut local: Vec<LocalTransform> = self.nodes.iter().map(|node| node.transform).collect();
+        for channel in self.clip.iter().flat_map(|clip| &clip.channels) {
+            let (Channel::Translation { node, .. } | Channel::Rotation { node, .. } | Channel::Scale { node, .. }) =
+                channel
+            else {
+                continue;
+            };
+            let LocalTransform::Parts { translation, rotation, scale } = &mut local[*node] else {
+                unreachable!("a channel moves a node with parts");
+            };
+            match channel {
+                Channel::Translation { keys, .. } => *translation = keys.at(time),
+                Channel::Rotation { keys, .. } => *rotation = keys.at(time),
+                Channel::Scale { keys, .. } => *scale = keys.at(time),
+                Channel::MorphWeight { .. } => {}
+            }
+        }
+        let mut world = vec![DMat4::IDENTITY; local.len()];
+        for node in &self.order {
+            let matrix = local[*node].matrix();
+            world[*node] = match self.nodes[*node].parent {
+                Some(parent) => world[parent] * matrix,
+                None => matrix,
+            };
+        }
+        world
+    }
+
+    fn morph_weights(&self, time: f64) -> Vec<f64> {
+        let mut weights = self.morph_weights.clone();
+        for channel in self.clip.iter().flat_map(|clip| &clip.channels) {
+            if let Channel::MorphWeight { target, keys } = channel {
+                weights[*target] = keys.at(time);
+            }
+        }
+        weights
+    }
+
+    fn ends_as_it_starts(&self) -> bool {
+        if self.duration() <= 0.0 {
+            return false;
+        }
+        let [start, end] = [0.0, self.duration()].map(|time| self.node_transforms(time));
+        let stands = |joint: &Joint| {
+            let [a, b] = [start[joint.node], end[joint.node]];
+            let distance = a.w_axis.truncate().distance(b.w_axis.truncate()) * self.metres_per_unit;
+            let axes = |m: DMat4| [m.x_axis, m.y_axis, m.z_axis].map(|axis| axis.truncate());
+            let change = axes(b - a).into_iter().zip(axes(a));
+            // Against the size of the start, because the unit of a joint need not be the metre.
+            let turned = change.map(|(change, axis)| change.length() - CLOSED_TURN * axis.length()).fold(0.0, f64::max);
+            distance <= CLOSED_DISTANCE && turned <= 0.0
+        };
+        let [first, last] = [0.0, self.duration()].map(|time| self.morph_weights(time));
+        let mixed = first.iter().zip(&last).all(|(a, b)| (a - b).abs() <= CLOSED_TURN);
+        self.joints.iter().all(stands) && mixed
+    }
+}
+
+/// Every node after its parent.
+fn parents_first(nodes: &[RigNode]) -> Result<Vec<usize>, OwnAncestor> {
+    let mut placed = vec![false; nodes.len()];
+    let mut order = Vec::with_capacity(nodes.len());
+    for node in 0..nodes.len() {
+        let mut path = Vec::new();
+        let mut next = Some(node);
+        while let Some(open) = next.filter(|open| !placed[*open]) {
+            if path.len() == nodes.len() {
+                return Err(OwnAncestor { node });
+            }
+            path.push(open);
+            next = nodes[open].parent;
+        }
+        for open in path.into_iter().rev() {
+            placed[open] = true;
+            order.push(open);
+        }
+    }
+    Ok(order)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Joint, LocalTransform, OwnAncestor, Rig, RigNode};
+    use crate::{Channel, Clip, Interpolation, Keys, RigidKey, RigidMotion};
+    use glam::{DMat4, DQuat, DVec3, dvec3};
+    use std::f64::consts::TAU;
+
+    fn node(parent: Option<usize>) -> RigNode {
+        RigNode { parent, transform: LocalTransform::IDENTITY }
+    }
+
+    fn joint(node: usize) -> Joint {
+        Joint { name: format!("joint {node}"), node, inverse_bind: DMat4::IDENTITY }
+    }
+
+    /// One joint, in a unit of half a metre, that turns about y over a second and goes along x.
+    fn turning(end: DQuat, far: f64) -> Rig {
+        let third = |angle: f64| DQuat::from_rotation_y(angle * TAU / 3.0);
+        let linear = Interpolation::Linear;
+        let rotation = Keys {
+            interpolation: linear,
+            times: vec![0.0, 0.4, 0.7, 1.0],
+            values: vec![third(0.0), third(1.0), third(2.0), end],
+        };
+        let translation =
+            Keys { interpolation: linear, times: vec![0.0, 1.0], values: vec![DVec3::ZERO, dvec3(far, 0.0, 0.0)] };
+        let channels =
+            vec![Channel::Rotation { node: 0, keys: rotation }, Channel::Translation { node: 0, keys: translation }];
+        let clip = Clip { name: "turn".into(), duration: 1.0, channels };
+        Rig::new(vec![node(None)], vec![joint(0)], vec![], Some(clip), 0.5).expect("no circle")
+    }
+
+    #[test]
+    fn a_parent_carries_its_children_in_any_order() {
+        let moved = |parent, x| RigNode {
+            parent,
+            transform: LocalTransform::Parts {
+                translation: dvec3(x, 0.0, 0.0),
+                rotation: DQuat::from_rotation_z(TAU / 4.0),
+                scale: DVec3::splat(2.0),
+            },
+        };
+        let nodes = vec![moved(Some(2), 1.0), node(None), moved(None, 10.0)];
+        let rig = Rig::new(nodes, vec![joint(0)], vec![], None, 0.1).expect("no circle");
+        // The child stands 1 along its parent's x, which points up and is twice as long.
+        let centre = rig.joint_matrices(0.0)[0].transform_point3(DVec3::ZERO);
+        assert!(centre.distance(dvec3(1.0, 0.2, 0.0)) < 1e-12, "{centre}");
+        let tip = rig.joint_matrices(0.0)[0].transform_vector3(DVec3::X);
+        assert!(tip.distance(dvec3(-0.4, 0.0, 0.0)) < 1e-12, "{tip}");
+        let rows = rig.pose(0.0).joints[0];
+        assert_eq!([rows[0].w, rows[1].w], [1.0, 0.2]);
+    }
+
+    #[test]
+    fn a_circle_of_parents_is_refused() {
+        let circle = vec![node(None), node(Some(2)), node(Some(1))];
+        assert_eq!(Rig::new(circle, vec![], vec![], None, 1.0).expect_err("a circle"), OwnAncestor { node: 1 });
+    }
+
+    #[test]
+    fn a_clip_is_closed_when_turn_and_place_return() {
+        let whole = DQuat::from_rotation_y(TAU);
+        assert!(turning(whole, 0.0).is_closed());
+        // The unit is half a metre: 1.9 mm in the file are 0.95 mm in the world.
+        assert!(turning(whole, 0.0019).is_closed());
+        assert!(!turning(whole, 0.0021).is_closed());
+        assert!(turning(DQuat::from_rotation_y(TAU + 0.0009), 0.0).is_closed());
+        assert!(!turning(DQuat::from_rotation_y(TAU + 0.0011), 0.0).is_closed());
+    }
+
+    #[test]
+    fn a_closed_clip_repeats_and_an_open_one_stands_still() {
+        let closed = turning(DQuat::from_rotation_y(TAU), 0.0);
+        assert_eq!(closed.pose(3.25), closed.pose(0.25));
+        assert_ne!(closed.pose(0.25), closed.pose(0.0));
+        let open = turning(DQuat::from_rotation_y(5.0), 0.0);
+        assert_eq!(open.pose(3.25), open.pose(1.0));
+        assert_eq!(open.pose(-1.0), open.pose(0.0));
+    }
+
+    #[test]
+    fn morph_weights_rest_or_follow_their_channel() {
+        let keys = Keys { interpolation: Interpolation::Linear, times: vec![0.0, 2.0], values: vec![0.0, 1.0] };
+        let channels = vec![Channel::MorphWeight { target: 1, keys }];
+        let clip = Clip { name: String::new(), duration: 2.0, channels };
+        let rig = Rig::new(vec![], vec![], vec![0.25, 0.5], Some(clip), 1.0).expect("no circle");
+        assert_eq!(rig.pose(0.5).morph_weights, [0.25, 0.25]);
+        assert!(!rig.is_closed());
+    }
+
+    #[test]
+    fn a_rigid_rig_moves_as_its_keys_say_and_does_not_repeat() {
+        let key = |time, x, angle| RigidKey {
+            time,
+            translation: dvec3(x, 0.0, 0.0),
+            rotation: DQuat::from_rotation_y(angle),
+        };
+        let keys = vec![key(0.5, 0.0, 0.0), key(1.0, 1.0, 2.0), key(2.0, 0.0, 0.0)];
+        let motion = RigidMotion { keys: keys.clone() };
+        let rig = Rig::rigid(keys);
+        assert_eq!((rig.duration(), rig.is_closed()), (2.0, false));
+        for time in [0.0, 0.6, 1.0, 1.9, 2.7] {
+            let (translation, rotation) = motion.at(time);
+            let expected = DMat4::from_rotation_translation(rotation, translation);
+            assert!(rig.joint_matrices(time)[0].abs_diff_eq(expected, 1e-12), "{time}");
+        }
+        assert_eq!(rig.pose(2.7), rig.pose(0.0));
+        assert_eq!(Rig::rigid(Vec::new()).joint_matrices(1.0), [DMat4::IDENTITY]);
     }
 }

@@ -29,7 +29,8 @@ impl MovingFrame {
     /// garments show in the maps too.
     pub fn new(body: &MovingMesh, texel: f32, thickness: f32, layered: bool) -> Self {
         let count = (body.duration() * BOUNDS_RATE).ceil() as u32 + 1;
-        let bounds = body.bounds((0..count).map(|index| f64::from(index) / BOUNDS_RATE));
+        let bounds_at = |index| body.at(f64::from(index) / BOUNDS_RATE).bounds().unwrap_or_default();
+        let bounds = (0..count).map(bounds_at).collect();
         let margin = thickness + BOUNDS_MARGIN + if layered { GARMENT_MARGIN } else { 0.0 };
         let mut frame = Self { bounds, is_closed: body.is_closed(), margin, texel, size: [0; 2] };
         let sizes = (0..count as usize).map(|index| {

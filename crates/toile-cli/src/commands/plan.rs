@@ -90,6 +90,7 @@ fn bounds(scene: &Scene) -> Option<[Vec3; 2]> {
         .iter()
         .filter_map(|body| match body {
             Body::Mesh(mesh) => mesh.bounds(),
+            Body::Moving(body) => body.mesh.bounds(),
             Body::Sphere(_) => None,
         })
         .flat_map(|[low, high]| [low - thickness, high + thickness])

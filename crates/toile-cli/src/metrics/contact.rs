@@ -45,7 +45,8 @@ impl Surfaces {
     pub fn new(bodies: &[Body], thickness: f64) -> Self {
         let exact = |body: &Body| match body {
             Body::Mesh(mesh) => Exact::Mesh(Box::new(ExactDistance::new(mesh))),
-            Body::Sphere(sphere) => Exact::Sphere(*sphere),
+            Body::Moving(body) => Exact::Mesh(Box::new(ExactDistance::new(&body.mesh))),
+            Body::Sphere(sphere) => Exact::Sphere(sphere.clone()),
         };
         Self { thickness, bodies: bodies.iter().map(exact).collect(), garments: Vec::new() }
     }

@@ -1,7 +1,7 @@
 //! Which part of a body a vertex belongs to, by the name of its joint.
 
 use glam::DVec3;
-use toile::scene::{Mesh, Motion, MovingMesh, Rig};
+use toile::scene::{Mesh, Motion, MovingMesh};
 
 /// Words in the names of joints, and the region that they mean; what has none of them is the torso.
 const WORDS: [(&str, &[&str]); 3] = [
@@ -22,8 +22,13 @@ impl Regions {
         let of_vertex = match &body.motion {
             Motion::Sequence(_) => vec!["torso"; body.mesh.positions.len()],
             Motion::Skinned { skin, rig } => {
-                let names: Vec<&'static str> = rig.joints.iter().map(|joint| region(&joint.name)).collect();
-                Rig::main_joints(skin).into_iter().map(|joint| names[joint as usize]).collect()
+                let names: Vec<&'static str> = rig.joint_names().map(region).collect();
+                let main = |vertex: usize| {
+                    let influences = skin.influences_of(vertex);
+                    let main = influences.iter().max_by(|a, b| a.weight.total_cmp(&b.weight));
+                    main.map_or("torso", |influence| names[influence.joint as usize])
+                };
+                (0..skin.positions.len()).map(main).collect()
             }
         };
         Self { of_vertex }

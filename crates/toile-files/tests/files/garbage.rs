@@ -1,10 +1,12 @@
 //! Generated garbage and damaged valid files: no panic, no hang, no huge allocation.
 
+use crate::gltf_bodies::embedded;
+use crate::moving::puppet;
 use crate::support::{ellipsoid, fixture, garment_text, obj_text, ply_bytes};
 use proptest::prelude::*;
 use std::fs;
 use std::sync::LazyLock;
-use toile_files::{BodyOptions, NamedMesh, parse_body, parse_garment, read_scene, write_glb};
+use toile_files::{BodyOptions, NamedMesh, parse_body, parse_garment, parse_moving_body, read_scene, write_glb};
 
 /// Valid bodies, one of each format, and the name that tells the format.
 static BODIES: LazyLock<Vec<(&str, Vec<u8>)>> = LazyLock::new(|| {
@@ -104,6 +106,30 @@ fn check(bytes: &[u8], name: &str, options: &BodyOptions) -> Result<(), TestCase
     Ok(())
 }
 
+/// A small body with joints, morph targets and clips, as text.
+static PUPPET: LazyLock<Vec<u8>> = LazyLock::new(|| {
+    let (root, bytes) = puppet();
+    embedded(root, &bytes)
+});
+
+/// Whatever moves keeps its shape, and stands at time 0 as it was read.
+fn check_moving(bytes: &[u8], name: &str, options: &BodyOptions) -> Result<(), TestCaseError> {
+    if let Ok(file) = parse_moving_body(bytes, name, options) {
+        let body = &file.body;
+        let start = body.at(0.0);
+        let size = start.positions.iter().map(|position| position.length()).fold(0.0, f32::max);
+        for (a, b) in start.positions.iter().zip(&body.mesh.positions) {
+            prop_assert!(a.distance(*b) <= 1e-5 * (1.0 + size), "{a} {b}");
+        }
+        for time in [0.3, body.duration(), 1e9] {
+            let mesh = body.at(time);
+            prop_assert_eq!(mesh.positions.len(), body.mesh.positions.len());
+            prop_assert_eq!(mesh.normals.len(), body.mesh.positions.len());
+        }
+    }
+    Ok(())
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 512, failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -125,6 +151,15 @@ proptest! {
         // Damage in the first part hits header and JSON, which decide sizes.
         for within in [usize::MAX, 1200] {
             check(&damaged(bytes, within, &damages), name, &BodyOptions::default())?;
+        }
+    }
+
+    #[test]
+    fn damaged_clips_end(damages in damage()) {
+        for within in [PUPPET.len(), 6000] {
+            let bytes = damaged(&PUPPET, within, &damages);
+            check(&bytes, "a.gltf", &BodyOptions { clip: Some("act".into()), time: 0.7, ..BodyOptions::default() })?;
+            check_moving(&bytes, "a.gltf", &BodyOptions::default())?;
         }
     }
 
@@ -169,6 +204,7 @@ proptest! {
         let options = BodyOptions { clip: Some("walk_loop".into()), time: 0.3, ..BodyOptions::default() };
         check(&damaged(&WALKER, 40_000, &damages), "a.glb", &options)?;
         check(&damaged(&WALKER, usize::MAX, &damages), "a.glb", &options)?;
+        check_moving(&damaged(&WALKER, usize::MAX, &damages), "a.glb", &options)?;
     }
 
     #[test]

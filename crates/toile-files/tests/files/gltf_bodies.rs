@@ -7,7 +7,7 @@ use std::fs;
 use toile_files::{BodyOptions, NamedMesh, parse_body, read_body, write_glb};
 
 /// A glTF with one ellipsoid, a clip that moves and turns it, and its buffer as bytes.
-fn animated(interpolation: &str) -> (Value, Vec<u8>) {
+pub fn animated(interpolation: &str) -> (Value, Vec<u8>) {
     let mesh = ellipsoid();
     let mut bytes: Vec<u8> = Vec::new();
     let mut views = Vec::new();
@@ -55,7 +55,7 @@ fn animated(interpolation: &str) -> (Value, Vec<u8>) {
     (root, bytes)
 }
 
-fn embedded(mut root: Value, bytes: &[u8]) -> Vec<u8> {
+pub fn embedded(mut root: Value, bytes: &[u8]) -> Vec<u8> {
     let text = base64::engine::general_purpose::STANDARD.encode(bytes);
     root["buffers"][0]["uri"] = format!("data:application/octet-stream;base64,{text}").into();
     root.to_string().into_bytes()

@@ -5,6 +5,7 @@ mod broken;
 mod garbage;
 mod garments;
 mod gltf_bodies;
+mod moving;
 mod real;
 mod scenes;
 mod support;

@@ -197,3 +197,111 @@ fn faults_in_a_scene_name_the_file_that_has_them() {
     let error = read_fabric(&at.join("bare.toml")).expect_err("no base").to_string();
     assert!(error.ends_with(", key \"structural_stiffness\": it is missing; give it, or a base such as \"cotton\""));
 }
+
+const SHEET: &str = "n = 9\n[[sheet]]\nsize = [1, 1]\ncorner = [0, 2, 0]\nright = [1, 0, 0]\ndown = [0, 0, 1]\n";
+
+#[test]
+fn bodies_of_a_scene_move_by_clip_keys_or_sequence() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = folder.path();
+    let mut body = ellipsoid();
+    write(at, "body.obj", &obj_text(&body));
+    fs::create_dir(at.join("frames")).expect("a folder");
+    write(&at.join("frames"), "0.obj", &obj_text(&body));
+    body.positions.iter_mut().for_each(|position| position.x += 0.5);
+    write(&at.join("frames"), "1.obj", &obj_text(&body));
+    let woman = fixture("bodies/walking_woman.glb").display().to_string();
+    let text = format!(
+        "{SHEET}[[body]]\nfile = '{woman}'\nmoving = true\nclip = \"walk_forward_4cycles\"\n\
+         [[body]]\nfile = \"body.obj\"\nkeys = [{{ time = 0, translation = [1, 0, 0] }}, {{ time = 2, rotation = [0, 0, 2, 90] }}]\n\
+         [[body]]\nsequence = \"frames\"\nframe_rate = 4\n\
+         [[body]]\nfile = \"body.obj\"\nmoving = false\n\
+         [[sphere]]\ncentre = [0, 1, 0]\nradius = 0.2\nkeys = [{{ time = 1 }}, {{ time = 3, rotation = [0, 1, 0, -90], translation = [0, 0, 4] }}]\n"
+    );
+    write(at, "scene.toml", &text);
+    let file = read_scene(&at.join("scene.toml"), &[]).expect("the scene");
+    let [Body::Moving(walk), Body::Moving(keys), Body::Moving(frames), Body::Mesh(still), Body::Sphere(sphere)] =
+        &file.scene.bodies[..]
+    else {
+        panic!("five bodies")
+    };
+    assert!((walk.duration() - 4.4).abs() < 1e-6);
+    let top = |time| keys.at(time).positions[0];
+    assert!(top(0.0).distance(glam::vec3(1.0, 1.6, 0.0)) < 1e-6 && keys.mesh.positions[0] == top(0.0));
+    assert!(top(2.0).distance(glam::vec3(-1.6, 0.0, 0.0)) < 1e-6);
+    assert_eq!((frames.duration(), frames.at(0.125).positions[0].x), (0.25, 0.25));
+    assert_eq!(still.positions[0], keys.at(0.0).positions[0] - glam::Vec3::X);
+    assert_eq!(sphere.at(2.0), (DVec3::new(0.0, 1.0, 2.0), DVec3::new(0.0, 0.0, 2.0)));
+    assert!(sphere.spin(2.0).distance(DVec3::new(0.0, -std::f64::consts::FRAC_PI_4, 0.0)) < 1e-12);
+    assert_eq!(sphere.spin(0.5), DVec3::ZERO);
+}
+
+#[test]
+fn motions_that_contradict_themselves_name_the_key() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = folder.path();
+    write(at, "body.obj", &obj_text(&ellipsoid()));
+    let file = "[[body]]\nfile = \"body.obj\"\n";
+    let sequence = "[[body]]\nsequence = \"frames\"\n";
+    let ball = "[[sphere]]\ncentre = [0, 0, 0]\nradius = 1\n";
+    let cases = [
+        "[[body]]\nclip = \"walk\"\n".to_string(),
+        format!("{file}sequence = \"frames\"\n"),
+        format!("{file}frame_rate = 30\n"),
+        format!("{file}moving = true\ntime = 1\n"),
+        format!("{file}moving = true\nkeys = []\n"),
+        format!("{file}moving = true\n"),
+        format!("{file}keys = []\n"),
+        format!("{file}keys = [{{ time = 0 }}, {{ time = 0 }}]\n"),
+        format!("{file}keys = [{{ time = nan }}]\n"),
+        format!("{file}keys = [{{ time = 0, rotation = [0, 0, 0, 90] }}]\n"),
+        format!("{file}keys = [{{ time = 0, rotation = [0, 2, 0, -90] }}, {{ time = 1, rotation = [0, 1, 0, 90] }}]\n"),
+        format!("{file}keys = [{{ time = 0 }}, {{ time = 1, rotation = [0, 1, 0, 360] }}]\n"),
+        format!("{file}keys = [{{ time = 0, translation = [0, inf, 0] }}]\n"),
+        format!("{file}keys = [{{ time = 0, speed = 1 }}]\n"),
+        sequence.to_string(),
+        format!("{sequence}frame_rate = 0\n"),
+        format!("{sequence}frame_rate = 30\nclip = \"walk\"\n"),
+        format!("{sequence}frame_rate = 30\ntime = 1\n"),
+        format!("{sequence}frame_rate = 30\nmoving = true\n"),
+        format!("{sequence}frame_rate = 30\nkeys = []\n"),
+        format!("{sequence}frame_rate = 30\n"),
+        format!("{ball}keys = []\n"),
+        format!("{ball}keys = [{{ time = 0 }}]\nswing = {{ amplitude = [1, 0, 0], period = 1 }}\n"),
+        format!("{ball}keys = [{{ time = 1 }}, {{ time = 0 }}]\n"),
+    ];
+    let messages: Vec<String> = cases
+        .iter()
+        .map(|text| {
+            write(at, "scene.toml", &format!("{SHEET}{text}"));
+            let error = read_scene(&at.join("scene.toml"), &[]).expect_err(text).to_string();
+            error.strip_prefix(&format!("{}/", at.display())).expect("the path").to_string()
+        })
+        .collect();
+    insta::assert_snapshot!(messages.join("\n"), @r#"
+    scene.toml, key "body.0.file": it is missing; give file, or sequence with a folder
+    scene.toml, key "body.0.sequence": give either file or sequence, not both
+    scene.toml, key "body.0.frame_rate": only a sequence has it; a clip has times of its own
+    scene.toml, key "body.0.time": a moving body starts its clip at 0; leave it out
+    scene.toml, key "body.0.keys": give either moving = true or keys, not both
+    body.obj: the motion of a .obj file, which has none (a .gltf or .glb file can have clips), cannot be read
+    scene.toml, key "body.0.keys": it has no key; leave it out for a body at rest
+    scene.toml, key "body.0.keys.1.time": it is 0 and must be a time after the key before
+    scene.toml, key "body.0.keys.0.time": it is NaN and must be a time after the key before
+    scene.toml, key "body.0.keys.0.rotation": it must be an axis x, y, z and an angle in degrees
+    scene.toml, key "body.0.keys.1.rotation": it turns by 180 degrees from the key before, at most 179 are possible: give keys in between
+    scene.toml, key "body.0.keys.1.rotation": it turns by 360 degrees from the key before, at most 179 are possible: give keys in between
+    scene.toml, key "body.0.keys.0.translation": it must be three finite numbers
+    scene.toml, line 9, column 21: unknown field `speed`, expected one of `time`, `translation`, `rotation`
+    scene.toml, key "body.0.frame_rate": it is missing; a sequence needs it
+    scene.toml, key "body.0.frame_rate": it is 0 and must be above 0
+    scene.toml, key "body.0.clip": a sequence has no clip; its files are its motion
+    scene.toml, key "body.0.time": a sequence has no clip; its files are its motion
+    scene.toml, key "body.0.moving": a sequence always moves
+    scene.toml, key "body.0.keys": a sequence moves by its files, not by keys
+    frames: it cannot be read: No such file or directory (os error 2)
+    scene.toml, key "sphere.0.keys": it has no key; leave it out for a body at rest
+    scene.toml, key "sphere.0.keys": give either swing or keys, not both
+    scene.toml, key "sphere.0.keys.1.time": it is 0 and must be a time after the key before
+    "#);
+}

@@ -49,7 +49,7 @@ fn sphere_errors(maps: &BodyMaps, radius: f32) -> (f32, f32) {
 fn a_sphere_has_the_depth_and_normals_of_a_sphere() {
     // Flat facets lie up to r·(1 − cos(π/2n))·2 = 0.02 mm inside, at 90 % of the radius 2.3 times that along z.
     let mesh = uv_sphere(CENTRE, 0.25, 128);
-    let maps = render_maps(&[Surface { mesh: &mesh, thickness: 0.0 }], 0.005);
+    let maps = render_maps(&[Surface { mesh: &mesh, thickness: 0.0, velocities: None }], 0.005);
     let (height, normal) = sphere_errors(&maps, 0.25);
     assert!(height < 1e-4 && normal < 2e-3, "{height} {normal}");
 }
@@ -57,7 +57,7 @@ fn a_sphere_has_the_depth_and_normals_of_a_sphere() {
 #[test]
 fn thickness_makes_a_larger_sphere_evenly() {
     let mesh = uv_sphere(CENTRE, 0.25, 128);
-    let maps = render_maps(&[Surface { mesh: &mesh, thickness: 0.01 }], 0.005);
+    let maps = render_maps(&[Surface { mesh: &mesh, thickness: 0.01, velocities: None }], 0.005);
     let (height, normal) = sphere_errors(&maps, 0.26);
     assert!(height < 1e-4 && normal < 2e-3, "{height} {normal}");
 }
@@ -65,7 +65,7 @@ fn thickness_makes_a_larger_sphere_evenly() {
 #[test]
 fn the_oracle_of_the_sphere_sees_swapped_sides() {
     let mesh = uv_sphere(CENTRE, 0.25, 128);
-    let mut maps = render_maps(&[Surface { mesh: &mesh, thickness: 0.0 }], 0.005);
+    let mut maps = render_maps(&[Surface { mesh: &mesh, thickness: 0.0, velocities: None }], 0.005);
     maps.normals.swap(0, 1);
     assert!(sphere_errors(&maps, 0.25).1 > 0.5);
 }
@@ -74,7 +74,7 @@ fn the_oracle_of_the_sphere_sees_swapped_sides() {
 fn row_0_is_the_top_and_column_0_the_left() {
     let [big, flag] =
         [box_mesh(vec3(-0.1, -0.1, -0.1), vec3(0.1, 0.1, 0.1)), box_mesh(vec3(0.1, 0.1, 0.2), vec3(0.2, 0.3, 0.3))];
-    let surfaces = [&big, &flag].map(|mesh| Surface { mesh, thickness: 0.0 });
+    let surfaces = [&big, &flag].map(|mesh| Surface { mesh, thickness: 0.0, velocities: None });
     let maps = render_maps(&surfaces, 0.01);
     let range = maps.frame.z_front - maps.frame.z_back;
     for (texel, x, y) in centres(&maps) {
@@ -101,7 +101,7 @@ fn row_0_is_the_top_and_column_0_the_left() {
 fn the_nearest_surface_is_seen_whatever_the_order() {
     let [near, far] =
         [box_mesh(vec3(-0.1, -0.1, 0.1), vec3(0.1, 0.1, 0.2)), box_mesh(vec3(-0.1, -0.1, -0.2), vec3(0.1, 0.1, -0.1))];
-    let surfaces = [&near, &far].map(|mesh| Surface { mesh, thickness: 1e-3 });
+    let surfaces = [&near, &far].map(|mesh| Surface { mesh, thickness: 1e-3, velocities: None });
     let maps = render_maps(&surfaces, 0.01);
     let turned = render_maps(&[surfaces[1], surfaces[0]], 0.01);
     assert_eq!(maps, turned);
@@ -115,7 +115,7 @@ fn an_inverted_mesh_still_faces_the_cameras() {
     for normal in &mut mesh.normals {
         *normal = -*normal;
     }
-    let maps = render_maps(&[Surface { mesh: &mesh, thickness: 0.0 }], 0.01);
+    let maps = render_maps(&[Surface { mesh: &mesh, thickness: 0.0, velocities: None }], 0.01);
     for (texel, ..) in centres(&maps) {
         assert!(maps.normals[0][texel].z >= 0.0 && maps.normals[1][texel].z <= 0.0);
     }

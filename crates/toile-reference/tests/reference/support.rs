@@ -29,6 +29,7 @@ pub fn settings() -> StepSettings {
         rule: Rule::None,
         sweeps: 1,
         threshold: THRESHOLD,
+        swept: true,
     }
 }
 
