@@ -30,8 +30,8 @@ fn measure(bench: &Bench, name: &str, size: u32) {
     let scene = scene(name, &[("n", &size.to_string())]);
     let [Cloth::Sheet(sheet)] = scene.cloths.as_slice() else { panic!("the scenes of this bench have one sheet") };
     let sphere = scene.bodies.iter().find_map(|body| match body {
-        Body::Sphere(sphere) => Some(*sphere),
-        Body::Mesh(_) => None,
+        Body::Sphere(sphere) => Some(sphere.clone()),
+        Body::Mesh(_) | Body::Moving(_) => None,
     });
     let model = Model::from_sheet(sheet, &scene.settings);
     let settings = StepSettings::new(&scene.settings, &model);

@@ -15,7 +15,8 @@ fn digests_of_the_garments() {
         let settings = settings(0.06);
         let open = Model::from_garment(&garment(name), &settings).expect("it meshes");
         let step = StepSettings::new(&settings, &open);
-        let maps = render_maps(&[Surface { mesh: &body, thickness: step.thickness }], settings.texel as f32);
+        let maps =
+            render_maps(&[Surface { mesh: &body, thickness: step.thickness, velocities: None }], settings.texel as f32);
         let mut reference = Reference::new(&open, &step.sewing(), Colliders { maps: Some(maps), sphere: None });
         (0..5).for_each(|_| reference.frame());
         writeln!(text, "{name}, sewn for 5 frames\n{}", reference.digest()).expect("a string grows");
@@ -39,8 +40,8 @@ fn digests_of_the_scenes() {
         let model = Model::from_sheet(sheet, &scene.settings);
         let step = StepSettings::new(&scene.settings, &model);
         let sphere = scene.bodies.iter().find_map(|body| match body {
-            Body::Sphere(sphere) => Some(*sphere),
-            Body::Mesh(_) => None,
+            Body::Sphere(sphere) => Some(sphere.clone()),
+            Body::Mesh(_) | Body::Moving(_) => None,
         });
         let mut reference = Reference::new(&model, &step, Colliders { maps: None, sphere });
         (0..20).for_each(|_| reference.frame());

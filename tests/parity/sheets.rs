@@ -14,8 +14,8 @@ fn sheet_model(scene: &Scene) -> Model {
 
 fn sphere(scene: &Scene) -> Option<Sphere> {
     scene.bodies.iter().find_map(|body| match body {
-        Body::Sphere(sphere) => Some(*sphere),
-        Body::Mesh(_) => None,
+        Body::Sphere(sphere) => Some(sphere.clone()),
+        Body::Mesh(_) | Body::Moving(_) => None,
     })
 }
 
