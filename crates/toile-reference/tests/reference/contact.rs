@@ -95,7 +95,7 @@ fn a_rebound_gives_back_its_part_of_the_approach() {
     for position in &mut model.positions {
         position.z = 0.0005;
     }
-    let probes = step::sample_maps(&model.positions, &[vec3(0.1, 0.0, -1.0); 4], &maps, &settings);
+    let probes = step::sample_maps(&model.positions, &[vec3(0.1, 0.0, -1.0); 4], &maps, Lag::default(), &settings);
     let mut particles = toile_reference::Particles::new(&model);
     particles.velocities = vec![vec3(0.1, 0.0, -1.0); 4];
     let midpoints = step::quad_midpoints(&particles.positions, &particles.velocities, &model.quads);
@@ -130,7 +130,7 @@ fn the_nearer_side_of_the_plate_answers() {
     let settings = settings();
     // Farther out than the reach of four texels of the plate's maps nothing answers.
     let points = [-0.01, -0.09, 0.1, -0.2].map(|z| vec3(0.203, 0.104, z));
-    let probes = step::sample_maps(&points, &[Vec3::ZERO; 4], &maps, &settings);
+    let probes = step::sample_maps(&points, &[Vec3::ZERO; 4], &maps, Lag::default(), &settings);
     assert_eq!(probes.iter().map(|probe| probe.hit).collect::<Vec<_>>(), [true, true, false, false]);
     assert_eq!((probes[0].normal, probes[1].normal), (Vec3::Z, Vec3::NEG_Z));
     for probe in &probes[..2] {
@@ -147,7 +147,7 @@ fn sphere_clearance(motion: SphereMotion, reach: f32) -> f32 {
     let sphere = Sphere { centre: DVec3::new(0.0, -0.25, 0.0), radius: 0.2, motion };
     let settings = StepSettings { dt: 1.0 / 600.0, rule: Rule::Predictive, sweeps: 2, damping: 0.5, ..settings() };
     let model = Grid::horizontal(21, 0.03).model();
-    let colliders = Colliders { maps: None, sphere: Some(sphere) };
+    let colliders = Colliders { maps: None, sphere: Some(sphere.clone()) };
     let mut reference = Reference::new(&model, &settings, colliders);
     let mut touched = 0;
     let mut clearance = f32::INFINITY;
@@ -187,7 +187,7 @@ fn maps_are_read_where_they_were_drawn() {
     let mesh = box_mesh(vec3(0.1, 0.3, 0.0), vec3(0.2, 0.5, 0.1));
     let maps = render_maps(&[Surface { mesh: &mesh, thickness: 0.0, velocities: None }], 0.01);
     let points = [vec3(0.12, 0.33, 0.05), vec3(0.18, 0.48, 0.05), vec3(0.12, 0.28, 0.05), vec3(0.08, 0.48, 0.05)];
-    let probes = step::sample_maps(&points, &[Vec3::ZERO; 4], &maps, &settings());
+    let probes = step::sample_maps(&points, &[Vec3::ZERO; 4], &maps, Lag::default(), &settings());
     assert_eq!(probes.iter().map(|probe| probe.hit).collect::<Vec<_>>(), [true, true, false, false]);
 }
 

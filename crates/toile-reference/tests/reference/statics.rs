@@ -12,7 +12,7 @@ fn pinned_particles_stay_where_they_are() {
     for rule in [Rule::None, Rule::Predictive, Rule::Position] {
         let model = Grid { pins: vec![0, 24, 40], ..Grid::horizontal(9, 0.02) }.model();
         let settings = StepSettings { rule, ..settings() };
-        let colliders = Colliders { maps: None, sphere: Some(sphere) };
+        let colliders = Colliders { maps: None, sphere: Some(sphere.clone()) };
         let mut reference = Reference::new(&model, &settings, colliders);
         for _ in 0..300 {
             reference.step();
