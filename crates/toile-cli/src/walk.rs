@@ -163,7 +163,7 @@ fn simulate(walk: &Walk, gpu: &Gpu, walkers: &[Walker], saved: &Saved, running: 
 /// How often the maps are drawn in a frame: at least at the map rate, and so that the steps divide evenly.
 fn maps_per_frame(steps: u32, frame_rate: f64) -> u32 {
     let wanted = ((MAP_RATE / frame_rate).ceil() as u32).clamp(1, steps);
-    (wanted..=steps).find(|count| steps % count == 0).unwrap_or(steps)
+    (wanted..=steps).find(|count| steps.is_multiple_of(*count)).unwrap_or(steps)
 }
 
 /// Submits what is recorded, waits, and says how long it took [ms].

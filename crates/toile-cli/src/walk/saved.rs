@@ -198,7 +198,7 @@ mod tests {
         assert!(told(true, "b").is_err_and(|e| e.contains("another one")));
         assert_eq!(told(true, "a"), Ok(()));
 
-        saved.write(2, &[state.clone()], None).expect("written");
+        saved.write(2, std::slice::from_ref(&state), None).expect("written");
         assert_eq!(saved.frame_count(), 1, "frame 1 is missing");
         assert_eq!(saved.read(0).expect("read"), [state.clone(), state]);
         assert_eq!(saved.positions(0, 1).expect("read"), [Vec3::X, Vec3::Y]);

@@ -104,7 +104,7 @@ fn wrong_overrides_name_the_key_and_what_there_is() {
         })
         .collect();
     insta::assert_snapshot!(messages.join("\n"), @r#"
-    hang.toml, key "speed": unknown field `speed`, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `spacing`, `texel`, `safety`, `reflection`, `rule`, `sweeps`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`
+    hang.toml, key "speed": unknown field `speed`, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `spacing`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`
     hang.toml, key "fabric": unknown field `colour`, expected one of `base`, `name`, `areal_density`, `structural_stiffness`, `shear_stiffness`, `bend_stiffness`, `damping`, `thickness`, `friction`, `threshold`
     hang.toml, key "n": it is 1 and must be 2 to 8192
     hang.toml, key "n": it is 100000 and must be 2 to 8192
@@ -122,7 +122,7 @@ fn wrong_overrides_name_the_key_and_what_there_is() {
     hang.toml, key "safety": it is 1.5 and must be 0 to 1
     hang.toml, key "gravity": it must be three finite numbers
     hang.toml, key "name.first": invalid type: map, expected a string
-    hang.toml, key "": unknown field ``, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `spacing`, `texel`, `safety`, `reflection`, `rule`, `sweeps`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`
+    hang.toml, key "": unknown field ``, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `spacing`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`
     "#);
 }
 
