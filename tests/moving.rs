@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3, Vec3, vec3};
 use toile::{MovingFrame, Outfit};
 use toile_gpu::MovingBody;
 use toile_model::{Model, StepSettings};
-use toile_reference::maps::{Surface, render_maps_in, skin_body, vertex_velocities};
+use toile_reference::maps::{BodyMaps, Surface, render_maps_in, skin_body, vertex_velocities};
 use toile_reference::{Colliders, Reference};
 use toile_scene::{Cloth, Motion, MovingMesh, RigidKey, Rule, Scene};
 use toile_workspace::{Layers, first_difference, fixture, gpu, read_maps, scene, uv_sphere, vec3_words};
@@ -211,4 +211,50 @@ fn a_fast_body_takes_the_cloth_along() {
     // it: from radius / dt on, which is 96 m/s.
     assert_eq!(passed(100.0, false), 0);
     assert!(passed(120.0, false) > 0);
+}
+
+/// What a garment sees in two frames of the first round of the walk and in one of the second, with the maps of the round kept or
+/// drawn in each frame.
+fn seen(kept: bool) -> Vec<BodyMaps> {
+    let woman = walking("walk_loop");
+    let (model, scene) = sheet("12");
+    let settings = StepSettings::new(&scene.settings, &model);
+    let (device, interval) = (&gpu().device, 1.0 / 60.0);
+    let frames = MovingFrame::new(&woman, 0.02, settings.thickness, false);
+    let mut outfit = None;
+    gpu().run(|encoder| {
+        let mut made = Outfit::new(device, encoder, &woman, &[(&model, settings)], 0.02, 1).expect("it fits");
+        if kept {
+            let bytes = made.keep_maps(device, encoder, &woman, interval).expect("they fit");
+            assert_eq!(bytes % 66, 0, "66 maps in 1.1 s");
+        }
+        outfit = Some(made);
+    });
+    let mut outfit = outfit.expect("it was made");
+    [1.0, 30.0, 66.0 + 12.0]
+        .map(|index| {
+            gpu().run(|encoder| outfit.record_start(device, encoder, interval * (index - 1.0)));
+            gpu().run(|encoder| outfit.record_pose(device, encoder, interval * index));
+            read_maps(gpu(), outfit.maps().next().expect("a garment has maps"), frames.at(interval * index))
+        })
+        .to_vec()
+}
+
+#[test]
+fn maps_that_are_kept_are_those_that_are_drawn() {
+    for (index, (kept, drawn)) in seen(true).iter().zip(seen(false)).enumerate() {
+        let velocities = [kept, &drawn].map(|maps| maps.velocities.clone().expect("a moving body"));
+        for side in 0..2 {
+            let texels = drawn.depth[side].iter().filter(|depth| **depth < 1.0).count();
+            assert!(texels > 500, "{texels} texels show the woman");
+            let deeper = kept.depth[side].iter().zip(&drawn.depth[side]).filter(|(a, b)| (**a - **b).abs() > 1e-4);
+            let faster = velocities[0][side].iter().zip(&velocities[1][side]).filter(|(a, b)| a.distance(**b) > 0.02);
+            // The second round is sampled at times that differ in the last bits: at a silhouette another triangle may win.
+            let differing = deeper.count() + faster.count();
+            assert!(differing * 100 <= texels, "frame {index}, side {side}: {differing} of {texels}");
+        }
+    }
+    assert_eq!(Outfit::can_keep_maps(&walking("walk_loop"), 0.05 / 3.0), Some(66));
+    assert_eq!(Outfit::can_keep_maps(&walking("walk_loop"), 0.07), None, "not a whole number");
+    assert_eq!(Outfit::can_keep_maps(&walking("walk_forward_4cycles"), 0.05), None, "not closed");
 }

@@ -108,6 +108,9 @@ pub struct Walk {
     /// Frames per second.
     #[arg(long, value_name = "RATE", default_value = "30", value_parser = parse_rate)]
     pub fps: f64,
+    /// Draw the maps of a clip that repeats once, and keep them: faster frames for more memory.
+    #[arg(long)]
+    pub precompute_maps: bool,
     /// Go on with an interrupted walk in the same folder, with the same options.
     #[arg(long)]
     pub resume: bool,

@@ -42,6 +42,8 @@ pub struct Walk {
     pub settings: Settings,
     /// Number of frames after the first.
     pub frame_count: u32,
+    /// Whether the maps of a round are drawn once and kept.
+    pub precompute_maps: bool,
     /// Whether to go on where an interrupted walk ended.
     pub resume: bool,
     /// All that decides the result, as text: a walk goes on only with the same.
@@ -115,6 +117,20 @@ fn simulate(walk: &Walk, gpu: &Gpu, walkers: &[Walker], saved: &Saved, running: 
     let garments: Vec<_> = walkers.iter().map(|walker| (&walker.model, walker.settings.clone())).collect();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     let mut outfit = Outfit::new(&gpu.device, &mut encoder, &walk.body, &garments, texel, maps_per_frame)?;
+    if walk.precompute_maps {
+        let interval = seconds / f64::from(maps_per_frame);
+        if Outfit::can_keep_maps(&walk.body, interval).is_none() {
+            bail!(
+                "--precompute-maps needs a clip that ends as it begins, after a whole number of maps; it has {:.3} s, and a map is \
+                 drawn every {interval:.4} s: leave the option out, or change --clip or --fps",
+                walk.body.duration()
+            );
+        }
+        let bytes = outfit.keep_maps(&gpu.device, &mut encoder, &walk.body, interval)?;
+        if !running.quiet && !running.json {
+            print(&format!("the maps of a round take {:.0} MiB", bytes as f64 / f64::from(1 << 20)))?;
+        }
+    }
     outfit.record_start(&gpu.device, &mut encoder, f64::from(done) * seconds);
     gpu.queue.submit([encoder.finish()]);
     let states = saved.read(done)?;

@@ -18,7 +18,8 @@ const GARMENT_MARGIN: f32 = 0.25;
 #[derive(Clone, Debug)]
 pub struct MovingFrame {
     bounds: Vec<[Vec3; 2]>,
-    is_closed: bool,
+    /// Length of a round [s], for a motion that repeats.
+    round: Option<f64>,
     margin: f32,
     texel: f32,
     size: [u32; 2],
@@ -32,7 +33,7 @@ impl MovingFrame {
         let bounds_at = |index| body.at(f64::from(index) / BOUNDS_RATE).bounds().unwrap_or_default();
         let bounds = (0..count).map(bounds_at).collect();
         let margin = thickness + BOUNDS_MARGIN + if layered { GARMENT_MARGIN } else { 0.0 };
-        let mut frame = Self { bounds, is_closed: body.is_closed(), margin, texel, size: [0; 2] };
+        let mut frame = Self { bounds, round: body.is_closed().then(|| body.duration()), margin, texel, size: [0; 2] };
         let sizes = (0..count as usize).map(|index| {
             let [low, high] = frame.between(index);
             high - low
@@ -44,9 +45,9 @@ impl MovingFrame {
 
     /// The frame at a time [s].
     pub fn at(&self, time: f64) -> MapFrame {
-        let end = (self.bounds.len() - 1) as f64 / BOUNDS_RATE;
-        let time = if self.is_closed && end > 0.0 { time.rem_euclid(end) } else { time.clamp(0.0, end) };
-        MapFrame::moving(self.between((time * BOUNDS_RATE) as usize), self.texel, self.size)
+        let time = self.round.map_or(time, |round| time.rem_euclid(round)).max(0.0);
+        // A time of the table stays one whatever the rounding: frames of the same pose are then the same.
+        MapFrame::moving(self.between((time * BOUNDS_RATE + 1e-4) as usize), self.texel, self.size)
     }
 
     /// The box around the body from one time of the table to the next.
@@ -66,6 +67,16 @@ pub struct Outfit {
     maps_per_frame: u32,
     time: f64,
     garments: Vec<Garment>,
+    kept: Option<KeptMaps>,
+}
+
+/// The maps of a body over one round of its motion.
+#[derive(Debug)]
+struct KeptMaps {
+    /// Time from one to the next [s].
+    interval: f64,
+    /// The first shows the body one interval after the start, the last at the end.
+    maps: Vec<(BodyMaps, MapFrame)>,
 }
 
 #[derive(Debug)]
@@ -113,7 +124,45 @@ impl Outfit {
                 Ok(Garment { simulation, maps, surface, trail })
             })
             .collect::<Result<_, Error>>()?;
-        Ok(Self { body: moving, frame, thickness, maps_per_frame, time: 0.0, garments })
+        Ok(Self { body: moving, frame, thickness, maps_per_frame, time: 0.0, garments, kept: None })
+    }
+
+    /// Draws the maps of a whole round of the body now and keeps them, one every `interval` seconds: frames then copy them instead
+    /// of posing and drawing the body. Gives the bytes that they take. D §7, W §6.
+    ///
+    /// # Errors
+    /// [`Error::Gpu`] when they do not fit the device.
+    ///
+    /// # Panics
+    /// When the motion is not closed or not a whole number of intervals long; see [`Outfit::can_keep_maps`].
+    pub fn keep_maps(
+        &mut self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        body: &MovingMesh,
+        interval: f64,
+    ) -> Result<u64, Error> {
+        let count = Self::can_keep_maps(body, interval).expect("a closed motion of a whole number of intervals");
+        self.body.record_pose(device, encoder, 0.0);
+        let mut maps = Vec::with_capacity(count as usize);
+        for index in 1..=count {
+            let time = f64::from(index) * interval;
+            self.body.record_pose(device, encoder, time);
+            let frame = self.frame.at(time);
+            let drawn = BodyMaps::new(device, frame, true)?;
+            drawn.record(device, encoder, frame, &[(self.body.surface(), self.thickness)]);
+            maps.push((drawn, frame));
+        }
+        let bytes = maps.iter().map(|(maps, _)| maps.bytes()).sum();
+        self.kept = Some(KeptMaps { interval, maps });
+        Ok(bytes)
+    }
+
+    /// How many maps a round of a body has, one every `interval` seconds; `None` when its motion is not closed or not a whole
+    /// number of intervals long.
+    pub fn can_keep_maps(body: &MovingMesh, interval: f64) -> Option<u32> {
+        let count = body.duration() / interval;
+        (body.is_closed() && (count - count.round()).abs() < 1e-3 && count >= 1.0).then(|| count.round() as u32)
     }
 
     /// Goes to a time without simulating: the body takes the pose of then [s].
@@ -136,6 +185,12 @@ impl Outfit {
     /// Records the next pose of the body [s], and what every garment sees of it.
     pub fn record_pose(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, time: f64) {
         self.time = time;
+        if let Some(kept) = &self.kept {
+            let index = (time / kept.interval).round() as usize + kept.maps.len() - 1;
+            let (maps, frame) = &kept.maps[index % kept.maps.len()];
+            self.garments.iter().for_each(|garment| garment.maps.record_copy(device, encoder, maps, *frame));
+            return;
+        }
         self.body.record_pose(device, encoder, time);
         let frame = self.frame.at(time);
         for garment in &self.garments {
@@ -195,6 +250,7 @@ impl Outfit {
     /// Bytes on the device.
     pub fn bytes(&self) -> u64 {
         let garments = self.garments.iter().map(|garment| garment.simulation.bytes() + garment.trail.bytes());
-        self.body.bytes() + garments.sum::<u64>()
+        let kept = self.kept.iter().flat_map(|kept| &kept.maps).map(|(maps, _)| maps.bytes());
+        self.body.bytes() + garments.sum::<u64>() + kept.sum::<u64>()
     }
 }

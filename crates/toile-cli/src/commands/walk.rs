@@ -29,8 +29,9 @@ pub fn run(arguments: &Walk) -> Result<()> {
             garments: outfit::read_garments(outfit)?,
             settings: Settings { frame_rate: arguments.fps, ..outfit::settings(outfit)? },
             frame_count,
+            precompute_maps: arguments.precompute_maps,
             resume: arguments.resume,
-            identity: format!("{outfit:?} {seconds} s {} fps", arguments.fps),
+            identity: format!("{outfit:?} {seconds} s {} fps, maps kept: {}", arguments.fps, arguments.precompute_maps),
         },
         &arguments.running,
     )
