@@ -22,6 +22,8 @@ pub enum Command {
     Walk(Walk),
     /// Run a scene file.
     Run(Run),
+    /// Run a scene of one sheet under every rule of the velocity modification: one picture, side by side.
+    Rules(Rules),
     /// Print the passes that a scene gets, with dispatches per step and bytes.
     Plan(PlanOf),
     /// List the adapters that wgpu finds.
@@ -125,6 +127,19 @@ pub struct Run {
     /// Scene file.
     pub scene: PathBuf,
     /// Change a key of the scene, for example n=128 or fabric.threshold=0.01.
+    #[arg(long, value_name = "KEY=VALUE", value_parser = parse_setting)]
+    pub set: Vec<(String, String)>,
+    /// Where the results go, and what is said of the run.
+    #[command(flatten)]
+    pub running: Running,
+}
+
+/// `toile rules`.
+#[derive(Args, Debug)]
+pub struct Rules {
+    /// Scene file.
+    pub scene: PathBuf,
+    /// Change a key of the scene, for example n=128.
     #[arg(long, value_name = "KEY=VALUE", value_parser = parse_setting)]
     pub set: Vec<(String, String)>,
     /// Where the results go, and what is said of the run.

@@ -379,3 +379,21 @@ fn an_interrupted_walk_goes_on_bit_for_bit() {
     }
     assert_eq!(journey.names("whole").len(), 10, "six frames, a GIF, USD, PC2 and metrics");
 }
+
+#[test]
+fn every_rule_is_shown_and_the_default_holds_where_others_run_away() {
+    let journey = Journey::new();
+    let scene = fixture("scenes/moving-ball.toml");
+    let options = ["--set", "n=24", "--set", "frames=40", "--backend", "reference", "--json"];
+    let told = json(&good(journey.run(&[&["rules", &scene], &options[..]].concat())));
+    let rows = list(&told);
+    let names: Vec<&str> = rows.iter().filter_map(|row| row["rule"].as_str()).collect();
+    assert_eq!(names, ["none", "zero", "average", "directional", "position", "predictive"]);
+    assert_eq!(rows[5]["diverged"], false);
+    let elongation = |row: usize| rows[row]["elongation_max_over_run"].as_f64().expect("a number");
+    assert!(elongation(5) < elongation(0), "the default stretches less than no rule at all");
+    assert_eq!(journey.names("out"), ["rules.json", "rules.png"]);
+    let garment = fixture("garments/skirt.json");
+    fs::write(journey.folder.path().join("g.toml"), format!("[[garment]]\nfile = {garment:?}\n")).expect("written");
+    assert!(refused(journey.run(&["rules", "g.toml"])).contains("not one sheet"));
+}

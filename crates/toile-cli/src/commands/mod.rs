@@ -4,6 +4,7 @@ mod adapters;
 mod dress;
 mod outfit;
 mod plan;
+mod rules;
 mod run;
 mod walk;
 
@@ -16,6 +17,7 @@ pub fn run(command: &Command) -> Result<()> {
     match command {
         Command::Dress(arguments) => dress::run(arguments),
         Command::Walk(arguments) => walk::run(arguments),
+        Command::Rules(arguments) => rules::run(arguments),
         Command::Run(arguments) => run::run(arguments),
         Command::Plan(arguments) => plan::run(arguments),
         Command::Adapters(arguments) => adapters::run(arguments),

@@ -1,0 +1,150 @@
+//! `toile rules`: one scene under every rule of the velocity modification, side by side.
+
+use crate::adapter;
+use crate::args::{Backend, Rules};
+use crate::commands::print;
+use crate::engine::Computer;
+use crate::interrupt::Interrupted;
+use crate::output;
+use crate::picture::{self, Drawn, Material, View};
+use crate::progress::Progress;
+use crate::simulate::sphere;
+use crate::sphere_mesh::sphere_mesh;
+use anyhow::{Result, bail};
+use glam::DVec3;
+use serde::Serialize;
+use toile::files::{SceneFile, read_scene, write_atomically};
+use toile::model::{Model, Status, StepSettings};
+use toile::scene::{Cloth, Mesh, Rule, Sphere};
+
+const RULES: [(&str, Rule); 6] = [
+    ("none", Rule::None),
+    ("zero", Rule::Zero),
+    ("average", Rule::Average),
+    ("directional", Rule::Directional),
+    ("position", Rule::Position),
+    ("predictive", Rule::Predictive),
+];
+/// Height of the pictures [px].
+const PICTURE_HEIGHT: u32 = 480;
+
+/// What became of a scene under one rule. The names are stable.
+#[derive(Debug, Serialize)]
+struct Row {
+    rule: &'static str,
+    steps_per_frame: u32,
+    /// Frames before the state ran away; all of them when it did not.
+    frames_sound: u32,
+    diverged: bool,
+    /// Largest elongation at the end of any frame [1].
+    elongation_max_over_run: f32,
+    /// Largest elongation in the picture [1].
+    elongation_max: f32,
+    /// How far the mean of the cloth is behind the centre of the sphere [m], without y; null without a sphere.
+    lag_m: Option<f64>,
+}
+
+/// Runs the scene once per rule; writes `rules.png` and `rules.json`.
+pub fn run(arguments: &Rules) -> Result<()> {
+    let running = &arguments.running;
+    let file = read_scene(&arguments.scene, &arguments.set)?;
+    output::check(&running.out)?;
+    let computer = match running.place.backend {
+        Backend::Gpu => Computer::Gpu(adapter::open(&running.place)?),
+        Backend::Reference => Computer::Reference,
+    };
+    let mut rows = Vec::new();
+    let mut pictures = Vec::new();
+    for (name, rule) in RULES {
+        let (row, mesh, ball) = try_rule(&file, name, rule, &computer, running.quiet || running.json)?;
+        let mut drawn = vec![Drawn { mesh: &mesh, material: Material::cloth(0) }];
+        drawn.extend(ball.as_ref().map(|mesh| Drawn { mesh, material: Material::SKIN }));
+        pictures.push(picture::render(&drawn, View::ThreeQuarter, PICTURE_HEIGHT)?);
+        rows.push(row);
+    }
+    std::fs::create_dir_all(&running.out)?;
+    picture::save_png(&running.out.join("rules.png"), &picture::strip(&pictures))?;
+    let text = serde_json::to_string_pretty(&rows)?;
+    write_atomically(&running.out.join("rules.json"), text.as_bytes())?;
+    if running.json {
+        print(&text)?;
+    } else if !running.quiet {
+        for row in &rows {
+            print(&row.line())?;
+        }
+        print(&format!("wrote {}", running.out.display()))?;
+    }
+    Ok(())
+}
+
+fn try_rule(
+    file: &SceneFile,
+    name: &'static str,
+    rule: Rule,
+    computer: &Computer,
+    quiet: bool,
+) -> Result<(Row, Mesh, Option<Mesh>)> {
+    let scene = &file.scene;
+    let ([Cloth::Sheet(sheet)], sphere) = (scene.cloths.as_slice(), sphere(scene)?) else {
+        bail!("scene {} is not one sheet: the rules are compared on a single sheet", scene.name);
+    };
+    if scene.bodies.len() != usize::from(sphere.is_some()) {
+        bail!("scene {} has a mesh body: the rules are compared on a sheet alone or with a sphere", scene.name);
+    }
+    let mut settings = scene.settings.clone();
+    settings.velocity_modification.rule = rule;
+    let model = Model::from_sheet(sheet, &settings);
+    let step = StepSettings::new(&settings, &model);
+    let mut engine = computer.start(&model, &step, &[], sphere.clone(), settings.texel as f32)?;
+    let mut state = engine.state()?;
+    let mut last = Status::default();
+    let mut row = Row {
+        rule: name,
+        steps_per_frame: step.steps_per_frame,
+        frames_sound: 0,
+        diverged: false,
+        elongation_max_over_run: 0.0,
+        elongation_max: 0.0,
+        lag_m: None,
+    };
+    let progress = Progress::new(name, quiet);
+    while row.frames_sound < file.frames {
+        match engine.frame() {
+            Ok(status) => {
+                last = status;
+                state = engine.state()?;
+                row.frames_sound += 1;
+                row.elongation_max_over_run = row.elongation_max_over_run.max(status.elongation_max);
+                progress.say(format!("frame {} of {}", row.frames_sound, file.frames));
+            }
+            Err(error) if error.is::<Interrupted>() || !error.is::<toile::Error>() => return Err(error),
+            Err(_) => {
+                row.diverged = true;
+                break;
+            }
+        }
+    }
+    progress.finish(format!("{} frames", row.frames_sound));
+    row.elongation_max = last.elongation_max;
+    let time = last.step as f64 * f64::from(step.dt);
+    let centre = |sphere: &Sphere| sphere.at(time).0;
+    let mean = state.positions.iter().map(|p| p.as_dvec3()).sum::<DVec3>() / state.positions.len().max(1) as f64;
+    row.lag_m = sphere.as_ref().map(|sphere| ((mean - centre(sphere)) * DVec3::new(1.0, 0.0, 1.0)).length());
+    let ball = sphere.as_ref().map(|sphere| sphere_mesh(centre(sphere), sphere.radius));
+    Ok((row, Mesh { positions: state.positions, normals: state.normals, triangles: model.triangles() }, ball))
+}
+
+impl Row {
+    fn line(&self) -> String {
+        let end =
+            if self.diverged { format!("ran away after {} frames", self.frames_sound) } else { "sound".to_owned() };
+        let lag = self.lag_m.map_or(String::new(), |lag| format!(" · {:.0} mm behind the sphere", 1e3 * lag));
+        format!(
+            "{:<12} {end} · {} steps per frame · elongation {:.1} % (over the run {:.1} %){lag}",
+            self.rule,
+            self.steps_per_frame,
+            1e2 * self.elongation_max,
+            1e2 * self.elongation_max_over_run
+        )
+    }
+}
