@@ -1,7 +1,8 @@
 //! Files out: whole or not at all.
 
 use crate::error::{Fault, FileError, Found};
-use std::io::Write;
+use std::fs::File;
+use std::io::{BufWriter, Write};
 use std::path::Path;
 use toile_scene::Mesh;
 
@@ -11,27 +12,74 @@ use toile_scene::Mesh;
 ///
 /// [`FileError`] when the operating system refuses.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+    stream_atomically(path, |out| Ok(out.write_all(bytes)?))
+}
+
+/// What keeps a file from being written piece by piece.
+pub(crate) enum Refusal {
+    /// The operating system refuses to write.
+    System(std::io::Error),
+    /// The content cannot be written.
+    Content(Found),
+    /// The content comes from a file that cannot be used.
+    Source(FileError),
+}
+
+impl From<std::io::Error> for Refusal {
+    fn from(error: std::io::Error) -> Self {
+        Self::System(error)
+    }
+}
+
+impl From<Found> for Refusal {
+    fn from(found: Found) -> Self {
+        Self::Content(found)
+    }
+}
+
+impl From<FileError> for Refusal {
+    fn from(error: FileError) -> Self {
+        Self::Source(error)
+    }
+}
+
+/// [`write_atomically`] for content that need never be in memory as a whole. A refusal leaves nothing behind.
+pub(crate) fn stream_atomically(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<&File>) -> Result<(), Refusal>,
+) -> Result<(), FileError> {
     let refuse = |error| Found::from(Fault::Unwritable(error)).in_file(path);
-    let folder = match path.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
-    };
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(refuse)?;
-    file.write_all(bytes).map_err(refuse)?;
+    let file = tempfile::NamedTempFile::new_in(folder_of(path)).map_err(refuse)?;
+    let mut out = BufWriter::new(file.as_file());
+    let written = write(&mut out).and_then(|()| Ok(out.flush()?));
+    drop(out);
+    written.map_err(|refusal| match refusal {
+        Refusal::System(error) => refuse(error),
+        Refusal::Content(found) => found.in_file(path),
+        Refusal::Source(error) => error,
+    })?;
     make_readable(file.as_file()).map_err(refuse)?;
     file.persist(path).map_err(|error| refuse(error.error))?;
     Ok(())
 }
 
+/// The folder that holds a path.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    }
+}
+
 /// Temporary files belong to their owner alone; what is written for others to see must not.
 #[cfg(unix)]
-fn make_readable(file: &std::fs::File) -> std::io::Result<()> {
+fn make_readable(file: &File) -> std::io::Result<()> {
     use std::os::unix::fs::PermissionsExt;
     file.set_permissions(std::fs::Permissions::from_mode(0o644))
 }
 
 #[cfg(not(unix))]
-fn make_readable(_: &std::fs::File) -> std::io::Result<()> {
+fn make_readable(_: &File) -> std::io::Result<()> {
     Ok(())
 }
 

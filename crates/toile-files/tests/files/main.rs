@@ -5,6 +5,7 @@ mod broken;
 mod garbage;
 mod garments;
 mod gltf_bodies;
+mod motions;
 mod real;
 mod scenes;
 mod support;
