@@ -14,6 +14,9 @@ struct StepParams {
     hold_speed: f32,            // its largest speed [m/s]
     particle_count: u32,
     quad_count: u32,
+    wind: vec3<f32>,            // velocity of the air [m/s]
+    drag: f32,                  // drag coefficient of a plate across the wind
+    lift: f32,                  // lift coefficient
 }
 
 const COULOMB: u32 = 0u;

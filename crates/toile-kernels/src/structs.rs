@@ -34,6 +34,12 @@ pub struct StepParams {
     pub particle_count: u32,
     /// Number of quads.
     pub quad_count: u32,
+    /// Velocity of the air [m/s].
+    pub wind: Vec3,
+    /// Drag coefficient of a plate across the wind [1].
+    pub drag: f32,
+    /// Lift coefficient [1].
+    pub lift: f32,
 }
 
 /// The part of an array that one dispatch works on. `wgsl/shared/span.wgsl`.

@@ -6,6 +6,8 @@ use toile_scene::Rule;
 /// What a solver must have for a model: passes, buffers and textures exist for this and nothing else.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Needs {
+    /// Air around the cloth.
+    pub wind: bool,
     /// A mesh body, sampled through maps.
     pub maps: bool,
     /// An analytic sphere.
@@ -25,6 +27,7 @@ impl Needs {
     pub fn new(model: &Model, settings: &StepSettings, maps: bool, sphere: bool) -> Self {
         let limits = !model.limits.is_empty();
         Self {
+            wind: settings.wind.is_some(),
             maps,
             sphere,
             holds: !model.holds.is_empty() && settings.hold_rate > 0.0,

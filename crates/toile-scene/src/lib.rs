@@ -20,7 +20,7 @@ pub use garment::{Curve, Edge, EdgeRef, Garment, Panel, Placement, Seam};
 pub use mesh::Mesh;
 pub use moving::{MeshSequence, Motion, MovingMesh};
 pub use rig::Rig;
-pub use settings::{Friction, Rule, Settings, VelocityModification};
+pub use settings::{AIR_DENSITY, Friction, Rule, Settings, VelocityModification, Wind};
 pub use sheet::{Pin, Sheet};
 pub use skin::{Displacement, Influence, Morphs, Pose, Skin};
 
