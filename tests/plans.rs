@@ -1,10 +1,11 @@
 //! The passes that each fixture gets: a scene pays for nothing that it does not have.
 
+use glam::DVec3;
 use std::fmt::Write;
 use toile_gpu::Plan;
 use toile_kernels::{Kernel, TABLE};
 use toile_model::{Maps, Model, Needs, StepSettings};
-use toile_scene::{Body, Cloth, Rule, Scene};
+use toile_scene::{Body, Cloth, Rule, Scene, Settings, Wind};
 use toile_workspace::{GARMENTS, SCENES, garment, scene, settings};
 
 fn plan(model: &Model, settings: &StepSettings, bodies: &[Body]) -> Plan {
@@ -53,6 +54,41 @@ fn plans_of_the_rules() {
         writeln!(text, "# {rule:?}, two sweeps\n{}", plan_of_scene(&hang)).expect("text");
     }
     insta::assert_snapshot!(text);
+}
+
+#[test]
+fn a_scene_with_wind_has_its_passes_and_bytes_and_one_without_has_not() {
+    for name in SCENES {
+        let calm = scene(name, &[]);
+        let windy = scene(name, &[("wind", "{ velocity = [1, 0, 0] }")]);
+        let [calm, windy] = [calm, windy].map(|scene| {
+            let Cloth::Sheet(sheet) = &scene.cloths[0] else { panic!("{name} has a sheet") };
+            let model = Model::from_sheet(sheet, &scene.settings);
+            let settings = StepSettings::new(&scene.settings, &model);
+            let plan = plan(&model, &settings, &scene.bodies);
+            let bytes = plan.buffer_sizes(&model, &settings);
+            (plan, bytes, u64::from(model.quad_count()))
+        });
+        let kernels = |plan: &Plan| plan.step.iter().map(|pass| pass.kernel).collect::<Vec<_>>();
+        let mut expected = kernels(&calm.0);
+        assert_eq!(expected[0], Kernel::SpringForces);
+        expected.splice(1..1, [Kernel::QuadWind, Kernel::WindForces]);
+        assert_eq!(kernels(&windy.0), expected, "{name}");
+        assert_eq!(windy.0.frame, calm.0.frame, "{name}");
+        assert_eq!(windy.1.get("quad_winds"), Some(&(16 * windy.2)), "{name}");
+        assert!(!calm.1.contains_key("quad_winds"), "{name}: {:?}", calm.1);
+    }
+}
+
+#[test]
+fn a_garment_is_dressed_without_wind() {
+    let windy = Settings { wind: Some(Wind::new(DVec3::X)), ..settings(0.03) };
+    let open = Model::from_garment(&garment("skirt"), &windy).unwrap_or_else(|error| panic!("{error}"));
+    let step = StepSettings::new(&windy, &open);
+    for (settings, wind) in [(&step, true), (&step.sewing(), false), (&step.easing(), false), (&step.draping(), false)]
+    {
+        assert_eq!(plan(&open, settings, &[]).kernels().contains(&Kernel::QuadWind), wind);
+    }
 }
 
 #[test]

@@ -31,6 +31,15 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
             see("has a neighbour that is no number", lengths().filter(|length| length.is_nan()).count());
             see("has no spring", particles().filter(|i| before.links.row(*i).is_empty()).count());
         }
+        Kernel::QuadWind => wind(before, after, &mut see),
+        Kernel::WindForces => {
+            let has = |i: usize, triangle: bool| {
+                before.particle_quads.row(i).iter().any(|q| (before.quads[*q as usize][3] == NO_CORNER) == triangle)
+            };
+            see("has a triangle", particles().filter(|i| has(*i, true)).count());
+            see("has a quad", particles().filter(|i| has(*i, false)).count());
+            see("has neither", particles().filter(|i| before.particle_quads.row(*i).is_empty()).count());
+        }
         Kernel::Reaction => {
             let pressed = |i: &usize| before.forces[*i].dot(before.contacts[*i].normal) < 0.0;
             let touching = |i: &usize| before.contacts[*i].touching && weights[*i] > 0.0;
@@ -197,6 +206,42 @@ fn directional(before: &Input, after: &Input, see: &mut impl FnMut(&'static str,
     see("touches with the second end", select(&|a, b| !touching(a) && touching(b)));
     see("has no direction", select(&|a, b| !gravity && !touching(a) && !touching(b) && moved(a) && moved(b)));
     see("has both ends pinned", select(&|a, b| !free(a) && !free(b)));
+}
+
+fn wind(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize)) {
+    let particles = &before.particles;
+    let air = before.settings.wind.expect("the input has wind").velocity.as_vec3();
+    let names = [
+        "is a triangle in the wind",
+        "is a quad in the wind",
+        "turns its inside to the wind",
+        "turns its outside to the wind",
+        "flies with the wind",
+        "has no area",
+        "is no number",
+    ];
+    let mut counts = [0; 7];
+    for (&[a, b, c, d], force) in before.quads.iter().zip(&after.quad_winds) {
+        let corner = |i: u32| particles.positions[i as usize];
+        let corners: Vec<u32> = [a, b, c, d].into_iter().filter(|i| *i != NO_CORNER).collect();
+        let middle = corners.iter().map(|i| particles.velocities[*i as usize]).sum::<Vec3>() / corners.len() as f32;
+        let end = if d == NO_CORNER { corner(c) - corner(a) } else { corner(d) - corner(b) };
+        let start = if d == NO_CORNER { corner(b) - corner(a) } else { corner(c) - corner(a) };
+        let area = start.cross(end);
+        let through = (air - middle).dot(area);
+        let pushed = *force != Vec3::ZERO;
+        let happens = [
+            pushed && d == NO_CORNER,
+            pushed && d != NO_CORNER,
+            pushed && through > 0.0,
+            pushed && through < 0.0,
+            !pushed && middle == air && air != Vec3::ZERO && area.length() > 0.0,
+            !pushed && area == Vec3::ZERO,
+            !pushed && (area.is_nan() || middle.is_nan()),
+        ];
+        counts.iter_mut().zip(happens).for_each(|(count, happens)| *count += usize::from(happens));
+    }
+    names.into_iter().zip(counts).for_each(|(name, count)| see(name, count));
 }
 
 fn maps(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize)) {

@@ -1,13 +1,13 @@
 //! Everything a kernel may read or write, on the side of the reference, and its bytes on the device.
 
 use encase::{ShaderType, StorageBuffer, UniformBuffer, internal::WriteInto};
-use glam::{Vec3, Vec4};
+use glam::{DVec3, Vec3, Vec4};
 use std::ops::Range;
 use toile_gpu::BodyMaps;
 use toile_kernels::structs;
 use toile_model::{Csr, Hold, Limit, Link, SeamPair, StepSettings};
 use toile_reference::{Ball, Contact, Lag, Midpoints, Particles, Probe};
-use toile_scene::{Friction, Pose, Skin};
+use toile_scene::{Friction, Pose, Skin, Wind};
 use toile_workspace::{Inputs, Layers};
 
 /// Everything a kernel may read or write.
@@ -22,6 +22,7 @@ pub struct Input {
     pub members: Csr<u32>,
     pub copies: Particles,
     pub forces: Vec<Vec3>,
+    pub quad_winds: Vec<Vec3>,
     pub links: Csr<Link>,
     pub limits: Vec<Limit>,
     pub seam_pairs: Vec<SeamPair>,
@@ -96,6 +97,8 @@ impl Input {
             Friction::Coulomb => (0, 0.0, 0.0),
             Friction::Papers { velocity_kept, force_removed } => (1, velocity_kept as f32, force_removed as f32),
         };
+        let still = Wind { velocity: DVec3::ZERO, drag: 0.0, lift: 0.0 };
+        let wind = s.wind.unwrap_or(still);
         structs::StepParams {
             gravity: s.gravity,
             dt: s.dt,
@@ -112,6 +115,9 @@ impl Input {
             particle_count: self.particles.positions.len() as u32,
             quad_count: self.quads.len() as u32,
             swept: u32::from(s.swept),
+            wind: wind.velocity.as_vec3(),
+            drag: wind.drag as f32,
+            lift: wind.lift as f32,
         }
     }
 }
@@ -171,6 +177,7 @@ impl Inputs for Input {
             "member_offsets" => words(&self.members.offsets),
             "members" => words(&self.members.values),
             "forces" => with_w(&self.forces, &vec![0.0; self.forces.len()]),
+            "quad_winds" => with_w(&self.quad_winds, &vec![0.0; self.quad_winds.len()]),
             "normals" => with_w(&self.normals, &vec![0.0; self.normals.len()]),
             "link_offsets" => words(&self.links.offsets),
             "link_others" => words(&self.links.values.iter().map(|l| l.other).collect::<Vec<_>>()),

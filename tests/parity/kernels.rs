@@ -18,6 +18,13 @@ pub fn reference(kernel: Kernel, input: &mut Input) {
     let particles = &mut input.particles;
     match kernel {
         Kernel::SpringForces => input.forces = step::spring_forces(particles, &before.links, settings),
+        Kernel::QuadWind => {
+            let wind = settings.wind.as_ref().expect("the input has wind");
+            input.quad_winds = step::quad_wind(particles, &before.quads, &before.particle_quads, wind, dt);
+        }
+        Kernel::WindForces => {
+            step::wind_forces(&mut input.forces, &before.quad_winds, &before.quads, &before.particle_quads);
+        }
         Kernel::Reaction => step::reaction(&mut input.forces, particles, &before.contacts, settings),
         Kernel::Euler => step::euler(&mut particles.velocities, &before.forces, &before.particles.inverse_masses, dt),
         Kernel::HoldEdges => step::hold_edges(particles, &before.holds, &before.held_particles, settings),

@@ -1,13 +1,13 @@
 //! Seeded input of any size that leads into every branch of a kernel.
 
 use crate::input::{Input, Posed};
-use glam::{Vec3, Vec4, vec3};
+use glam::{DVec3, Vec3, Vec4, dvec3, vec3};
 use std::sync::OnceLock;
 use toile_gpu::Surface;
 use toile_kernels::{Domain, Kernel, TABLE};
 use toile_model::{Csr, Hold, Limit, Link, MapFrame, Model, NO_CORNER, SeamPair, StepSettings};
 use toile_reference::{Ball, Contact, Lag, Midpoints, Particles, Probe};
-use toile_scene::{Displacement, Friction, Influence, Morphs, Pose, Skin};
+use toile_scene::{Displacement, Friction, Influence, Morphs, Pose, Skin, Wind};
 use toile_workspace::{Layers, Random, box_mesh, gpu, settings, uv_sphere};
 
 /// What the numbers of a step are: together these lead into every branch that the settings decide.
@@ -20,6 +20,9 @@ pub enum Variant {
 }
 
 pub const VARIANTS: [Variant; 3] = [Variant::Coulomb, Variant::Papers, Variant::Weightless];
+
+/// Velocity of the air [m/s]; few digits, so that the mean of four such velocities is exact.
+const WIND: DVec3 = dvec3(1.5, 0.25, -2.0);
 
 /// How many of each thing there are.
 struct Counts {
@@ -66,6 +69,7 @@ pub fn input(kernel: Kernel, items: u32, variant: Variant) -> Input {
         open,
         members,
         copies: particles.clone(),
+        quad_winds: (0..counts.quads).map(|_| random.vector(0.02)).collect(),
         forces: (0..counts.particles).map(|i| force(random, i, &contacts[i as usize])).collect(),
         links: links(random, counts.particles),
         limits,
@@ -93,6 +97,7 @@ pub fn input(kernel: Kernel, items: u32, variant: Variant) -> Input {
     input.copies.positions.fill(Vec3::ZERO);
     input.copies.velocities.fill(Vec3::ZERO);
     place_at_the_edges(random, &mut input);
+    carry_by_the_wind(&mut input);
     input
 }
 
@@ -119,6 +124,7 @@ fn step_settings(variant: Variant) -> StepSettings {
     let base = StepSettings {
         dt: 1.0 / 700.0,
         damping: 0.7,
+        wind: Some(Wind { velocity: WIND, drag: 1.1, lift: 0.6 }),
         push_speed: 1.5,
         contact_margin: 1e-3,
         friction: 0.8,
@@ -133,11 +139,17 @@ fn step_settings(variant: Variant) -> StepSettings {
             law: Friction::Papers { velocity_kept: 0.7, force_removed: 0.4 },
             reflection: 0.3,
             gravity: vec3(0.3, -9.81, 0.1),
+            wind: Some(Wind { velocity: -4.0 * WIND, drag: 0.4, lift: 1.7 }),
             ..base
         },
-        Variant::Weightless => {
-            StepSettings { gravity: Vec3::ZERO, law: Friction::Coulomb, reflection: 0.1, swept: false, ..base }
-        }
+        Variant::Weightless => StepSettings {
+            gravity: Vec3::ZERO,
+            wind: Some(Wind::new(DVec3::ZERO)),
+            law: Friction::Coulomb,
+            reflection: 0.1,
+            swept: false,
+            ..base
+        },
     }
 }
 
@@ -376,6 +388,16 @@ fn place_at_the_edges(random: &mut Random, input: &mut Input) {
                 *position = input.ball.centre + random.direction() * (input.ball.radius + random.between(-0.01, 0.01))
             }
             _ => {}
+        }
+    }
+}
+
+/// Lets some quads fly with the air.
+fn carry_by_the_wind(input: &mut Input) {
+    let velocity = input.settings.wind.expect("the input has wind").velocity.as_vec3();
+    for corners in input.quads.iter().skip(2).step_by(40) {
+        for corner in corners.iter().filter(|corner| **corner != NO_CORNER) {
+            input.particles.velocities[*corner as usize] = velocity;
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::life::Life;
 use toile_model::{Model, StepSettings};
-use toile_scene::{Body, Cloth, Friction, Rule, Scene, Sphere};
+use toile_scene::{Body, Cloth, Friction, Rule, Scene, Sphere, Wind};
 use toile_workspace::{Layers, finish_frame, first_difference, gpu, scene, uv_sphere, vec3_words};
 
 const RULES: [Rule; 6] = [Rule::None, Rule::Zero, Rule::Average, Rule::Directional, Rule::Position, Rule::Predictive];
@@ -51,6 +51,17 @@ fn a_sheet_on_a_sphere_agrees_under_every_rule_and_both_friction_laws() {
                 assert!(life.contacts_max > 0, "{name} {rule:?}: the sheet touches the sphere");
             }
         }
+    }
+}
+
+#[test]
+fn a_sheet_in_wind_agrees_hanging_and_on_a_sphere() {
+    for (name, velocity) in [("hang", glam::dvec3(1.0, 2.0, 8.0)), ("ball", glam::dvec3(3.0, -1.0, 0.0))] {
+        let mut windy = scene(name, &[("n", "17")]);
+        let model = sheet_model(&windy);
+        windy.settings.wind = Some(Wind::new(velocity));
+        let settings = StepSettings::new(&windy.settings, &model);
+        Life::new(&model, &settings, None, sphere(&windy)).agree(&format!("{name} in wind"), 20);
     }
 }
 

@@ -3,3 +3,4 @@
 mod friction;
 mod laws;
 mod stability;
+mod wind;

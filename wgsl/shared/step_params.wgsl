@@ -15,6 +15,9 @@ struct StepParams {
     particle_count: u32,
     quad_count: u32,
     swept: u32,                 // 1: the whole way of a point is tested against the bodies
+    wind: vec3<f32>,            // velocity of the air [m/s]
+    drag: f32,                  // drag coefficient of a plate across the wind
+    lift: f32,                  // lift coefficient
 }
 
 const COULOMB: u32 = 0u;

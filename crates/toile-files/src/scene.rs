@@ -3,11 +3,11 @@
 use crate::error::{FileError, Found, Place};
 use crate::fabric::{self, Problem};
 use crate::garment::read_garment;
-use crate::scene_toml::{CornerToml, FrictionToml, PinToml, RuleToml, SceneToml, SheetToml};
+use crate::scene_toml::{CornerToml, FrictionToml, PinToml, RuleToml, SceneToml, SheetToml, WindToml};
 use crate::{scene_body, source, toml_text};
 use glam::{DVec2, DVec3};
 use std::path::Path;
-use toile_scene::{Body, Cloth, Fabric, Friction, Pin, Rule, Scene, Settings, Sheet, VelocityModification};
+use toile_scene::{Body, Cloth, Fabric, Friction, Pin, Rule, Scene, Settings, Sheet, VelocityModification, Wind};
 
 /// Frames of a scene that does not say: two seconds at 60 per second.
 const FRAMES: u32 = 120;
@@ -85,6 +85,13 @@ pub(crate) fn positive(key: &str, value: f64) -> Result<f64, Found> {
     Err(wrong(key, format!("it is {value} and must be above 0")))
 }
 
+fn not_negative(key: &str, value: f64) -> Result<f64, Found> {
+    if value.is_finite() && value >= 0.0 {
+        return Ok(value);
+    }
+    Err(wrong(key, format!("it is {value} and must be 0 or more")))
+}
+
 fn part(key: &str, value: f64) -> Result<f64, Found> {
     if (0.0..=1.0).contains(&value) {
         return Ok(value);
@@ -132,12 +139,22 @@ fn settings(toml: &SceneToml, folder: &Path) -> Result<Settings, Problem> {
         friction,
         reflection: part("reflection", toml.reflection.unwrap_or(default.reflection))?,
         gravity: vector("gravity", toml.gravity.unwrap_or(default.gravity.to_array()))?,
+        wind: toml.wind.as_ref().map(convert_wind).transpose()?,
         spacing: positive("spacing", toml.spacing.unwrap_or(default.spacing))?,
         texel: positive("texel", toml.texel.unwrap_or(default.texel))?,
         frame_rate: positive("frame_rate", toml.frame_rate.unwrap_or(default.frame_rate))?,
         safety: part("safety", positive("safety", safety)?)?,
         swept: toml.swept.unwrap_or(default.swept),
         fabric: default.fabric,
+    })
+}
+
+fn convert_wind(toml: &WindToml) -> Result<Wind, Found> {
+    let default = Wind::new(vector("wind.velocity", toml.velocity)?);
+    Ok(Wind {
+        drag: not_negative("wind.drag", toml.drag.unwrap_or(default.drag))?,
+        lift: not_negative("wind.lift", toml.lift.unwrap_or(default.lift))?,
+        ..default
     })
 }
 

@@ -11,6 +11,7 @@ pub(crate) struct SceneToml {
     pub frames: Option<u32>,
     pub frame_rate: Option<f64>,
     pub gravity: Option<[f64; 3]>,
+    pub wind: Option<WindToml>,
     pub spacing: Option<f64>,
     pub texel: Option<f64>,
     pub safety: Option<f64>,
@@ -54,6 +55,15 @@ pub(crate) enum FrictionToml {
 pub(crate) struct PapersToml {
     pub velocity_kept: f64,
     pub force_removed: f64,
+}
+
+/// Air with the coefficients of a flat plate, unless it says otherwise.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct WindToml {
+    pub velocity: [f64; 3],
+    pub drag: Option<f64>,
+    pub lift: Option<f64>,
 }
 
 /// The name of a preset or of a fabric file, or a table.

@@ -2,11 +2,11 @@
 
 use crate::{GpuError, Plan};
 use encase::{ShaderType, StorageBuffer, UniformBuffer, internal::WriteInto};
-use glam::{Vec3, Vec4};
+use glam::{DVec3, Vec3, Vec4};
 use std::collections::BTreeMap;
 use toile_kernels::{Binding, Interface, Resource, WORKGROUP_SIZE, structs};
 use toile_model::{Model, StepSettings};
-use toile_scene::Friction;
+use toile_scene::{Friction, Wind};
 use wgpu::util::DeviceExt;
 
 /// Bytes from one entry of a moving uniform to the next: the alignment that every WebGPU device accepts.
@@ -171,6 +171,7 @@ fn contents(name: &str, model: &Model, settings: &StepSettings) -> Contents {
         "quads" => Contents::Bytes(bytemuck::cast_slice(&model.quads).to_vec()),
         "particle_quad_offsets" => words(&model.particle_quads.offsets),
         "particle_quads" => words(&model.particle_quads.values),
+        "quad_winds" => Contents::Zeros(16 * quads),
         "midpoints" => zeroed::<structs::Midpoint>(quads),
         "probes" => zeroed::<structs::Probe>(particles + quads),
         "contacts" => zeroed::<structs::Contact>(particles),
@@ -185,6 +186,8 @@ fn step_params(model: &Model, settings: &StepSettings) -> structs::StepParams {
         Friction::Coulomb => (0, 0.0, 0.0),
         Friction::Papers { velocity_kept, force_removed } => (1, velocity_kept as f32, force_removed as f32),
     };
+    let still = Wind { velocity: DVec3::ZERO, drag: 0.0, lift: 0.0 };
+    let wind = settings.wind.unwrap_or(still);
     structs::StepParams {
         gravity: settings.gravity,
         dt: settings.dt,
@@ -201,6 +204,9 @@ fn step_params(model: &Model, settings: &StepSettings) -> structs::StepParams {
         particle_count: model.particle_count(),
         quad_count: model.quad_count(),
         swept: u32::from(settings.swept),
+        wind: wind.velocity.as_vec3(),
+        drag: wind.drag as f32,
+        lift: wind.lift as f32,
     }
 }
 

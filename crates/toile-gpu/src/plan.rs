@@ -72,6 +72,7 @@ impl Pass {
 fn holds(need: Need, needs: &Needs) -> bool {
     match need {
         Need::Nothing => true,
+        Need::Wind => needs.wind,
         Need::Body => needs.body(),
         Need::StillMaps => needs.maps == Maps::Still,
         Need::MovingMaps => needs.maps == Maps::Moving,

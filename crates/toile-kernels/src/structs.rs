@@ -36,6 +36,12 @@ pub struct StepParams {
     pub quad_count: u32,
     /// 1: the whole way of a point is tested against the bodies.
     pub swept: u32,
+    /// Velocity of the air [m/s].
+    pub wind: Vec3,
+    /// Drag coefficient of a plate across the wind [1].
+    pub drag: f32,
+    /// Lift coefficient [1].
+    pub lift: f32,
 }
 
 /// The part of an array that one dispatch works on. `wgsl/shared/span.wgsl`.

@@ -49,6 +49,8 @@ pub enum Domain {
 pub enum Need {
     /// Nothing.
     Nothing,
+    /// Air around the cloth.
+    Wind,
     /// Any body.
     Body,
     /// Mesh bodies at rest.
@@ -136,6 +138,10 @@ kernels! {
     VertexVelocities "maps" "vertex_velocities" Pose Vertex Nothing;
     /// Springs, gravity and damping. D eq. 2.
     SpringForces "step" "spring_forces" Step Particle Nothing;
+    /// Drag and lift of each quad in the air. W §2.2.
+    QuadWind "step" "quad_wind" Step Quad Wind;
+    /// Each particle takes its share of the wind on its quads.
+    WindForces "step" "wind_forces" Step Particle Wind;
     /// Reaction of the body to the pressing force. W eq. 16.
     Reaction "step" "reaction" Step Particle Body;
     /// Velocities from forces. W eq. 3.

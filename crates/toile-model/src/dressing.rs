@@ -171,19 +171,24 @@ impl Dressing {
 }
 
 impl StepSettings {
-    /// These settings while a garment is sewn: no gravity, no friction, and damped.
+    /// These settings while a garment is sewn: no gravity, no wind, no friction, and damped.
     pub fn sewing(&self) -> Self {
         Self { gravity: Vec3::ZERO, damping: self.damping.max(SEWING_DAMPING), ..self.easing() }
     }
 
-    /// These settings while a sewn garment eases: no friction, and damped; its labelled edges are still held.
+    /// These settings while a sewn garment eases: no wind, no friction, and damped; its labelled edges are still held.
     pub fn easing(&self) -> Self {
-        Self { friction: 0.0, damping: self.damping.max(DRAPING_DAMPING), ..self.clone() }
+        Self { friction: 0.0, ..self.indoors() }
     }
 
-    /// These settings while a sewn garment comes to rest: damped, and held by the body alone.
+    /// These settings while a sewn garment comes to rest: no wind, damped, and held by the body alone.
     pub fn draping(&self) -> Self {
-        Self { damping: self.damping.max(DRAPING_DAMPING), hold_rate: 0.0, ..self.clone() }
+        Self { hold_rate: 0.0, ..self.indoors() }
+    }
+
+    /// Cloth in wind never comes to rest, so that a garment is dressed without.
+    fn indoors(&self) -> Self {
+        Self { wind: None, damping: self.damping.max(DRAPING_DAMPING), ..self.clone() }
     }
 }
 

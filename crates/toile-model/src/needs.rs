@@ -19,6 +19,8 @@ pub enum Maps {
 pub struct Needs {
     /// Mesh bodies, sampled through maps.
     pub maps: Maps,
+    /// Air around the cloth.
+    pub wind: bool,
     /// An analytic sphere.
     pub sphere: bool,
     /// Held edges.
@@ -36,6 +38,7 @@ impl Needs {
     pub fn new(model: &Model, settings: &StepSettings, maps: Maps, sphere: bool) -> Self {
         let limits = !model.limits.is_empty();
         Self {
+            wind: settings.wind.is_some(),
             maps,
             sphere,
             holds: !model.holds.is_empty() && settings.hold_rate > 0.0,

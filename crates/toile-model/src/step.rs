@@ -2,7 +2,7 @@
 
 use crate::Model;
 use glam::Vec3;
-use toile_scene::{Friction, Rule, Settings};
+use toile_scene::{Friction, Rule, Settings, Wind};
 
 /// The numbers of one step, the same for every particle.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +13,8 @@ pub struct StepSettings {
     pub steps_per_frame: u32,
     /// Gravity [m/s²].
     pub gravity: Vec3,
+    /// The air around the cloth.
+    pub wind: Option<Wind>,
     /// Viscous damping rate [1/s].
     pub damping: f32,
     /// Distance kept from bodies [m].
@@ -52,6 +54,7 @@ impl StepSettings {
             dt: (frame / steps_per_frame) as f32,
             steps_per_frame: steps_per_frame as u32,
             gravity: settings.gravity.as_vec3(),
+            wind: settings.wind,
             damping: settings.fabric.damping as f32,
             thickness: settings.fabric.thickness as f32,
             push_speed: 0.1,

@@ -35,6 +35,7 @@ pub struct Colliders {
 ///     dt: 0.01,
 ///     steps_per_frame: 10,
 ///     gravity: vec3(0.0, -10.0, 0.0),
+///     wind: None,
 ///     damping: 0.0,
 ///     thickness: 0.001,
 ///     push_speed: 0.2,
@@ -116,6 +117,10 @@ impl Reference {
         let has_body = self.colliders.maps.is_some() || self.colliders.sphere.is_some();
 
         let mut forces = step::spring_forces(particles, &model.links, settings);
+        if let Some(wind) = &settings.wind {
+            let winds = step::quad_wind(particles, &model.quads, &model.particle_quads, wind, dt);
+            step::wind_forces(&mut forces, &winds, &model.quads, &model.particle_quads);
+        }
         if has_body {
             step::reaction(&mut forces, particles, &self.contacts, settings);
         }

@@ -16,6 +16,8 @@ pub struct Settings {
     pub reflection: f64,
     /// Gravity [m/s²].
     pub gravity: DVec3,
+    /// The air around the cloth; `None` is none, not even still air.
+    pub wind: Option<Wind>,
     /// Distance of neighbouring particles along warp and weft [m].
     pub spacing: f64,
     /// Edge length of a map texel [m]. D eq. 11.
@@ -39,12 +41,43 @@ impl Settings {
             friction: Friction::Coulomb,
             reflection: 0.0,
             gravity: DVec3::new(0.0, -9.81, 0.0),
+            wind: None,
             spacing: 0.01,
             texel: 0.005,
             frame_rate: 60.0,
             safety: 0.8,
             swept: true,
         }
+    }
+}
+
+/// Density of the air [kg/m³]: dry air at 20 °C and sea level.
+pub const AIR_DENSITY: f64 = 1.2;
+
+/// The air around the cloth. Each quad is a flat plate in it: with u the velocity of the air relative to the quad, A its area and
+/// α the angle between u and its normal, it is dragged along u by ½·[`AIR_DENSITY`]·A·u²·|cos α|·`drag` and lifted across u, in
+/// the plane of u and the normal, by ½·[`AIR_DENSITY`]·A·u²·|cos α|·sin α·`lift`. Air at rest brakes the cloth all the same.
+///
+/// The force is divided by 1 + dt·rate, where rate [1/s] is ½·[`AIR_DENSITY`]·A·u·|cos α|·(`drag` + `lift`) over the mass of the
+/// quad, so that a step of length dt does not overshoot the air's velocity. With the coefficients of [`Wind::new`], cloth of
+/// 0.2 kg/m² across a wind of 10 m/s and steps of 1 ms it is 7 % smaller for that.
+///
+/// No part of the cloth shelters another, and the cloth does not change the wind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wind {
+    /// Velocity of the air [m/s].
+    pub velocity: DVec3,
+    /// Drag coefficient of a plate across the wind [1], 0 or more.
+    pub drag: f64,
+    /// Lift coefficient [1], 0 or more: that of the pressure on an inclined plate.
+    pub lift: f64,
+}
+
+impl Wind {
+    /// Wind with the drag coefficient of a square flat plate across the wind, 1.17 (Matthews, Aeronautical Engineer's Data Book,
+    /// 2002, figure 5.13), and the same for lift: what a pressure of 1.17·|cos α| along the normal has across the wind.
+    pub fn new(velocity: DVec3) -> Self {
+        Self { velocity, drag: 1.17, lift: 1.17 }
     }
 }
 

@@ -5,7 +5,7 @@ use glam::DVec3;
 use std::fs;
 use std::path::Path;
 use toile_files::{SceneFile, read_fabric, read_scene};
-use toile_scene::{Body, Cloth, Fabric, Friction, Rule, Sheet, SphereMotion};
+use toile_scene::{Body, Cloth, Fabric, Friction, Rule, Sheet, SphereMotion, Wind};
 
 fn overrides(pairs: &[(&str, &str)]) -> Vec<(String, String)> {
     pairs.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect()
@@ -64,6 +64,16 @@ fn overrides_set_any_key() {
 }
 
 #[test]
+fn a_scene_has_wind_only_when_it_says_so() {
+    assert_eq!(hang(&[]).scene.settings.wind, None);
+    let wind = |text| hang(&[("wind", text)]).scene.settings.wind.expect("wind");
+    let plate = Wind::new(DVec3::new(0.5, 0.0, -2.0));
+    assert_eq!(wind("{ velocity = [0.5, 0, -2] }"), plate);
+    assert_eq!(wind("{ velocity = [0.5, 0, -2], drag = 1.0, lift = 0 }"), Wind { drag: 1.0, lift: 0.0, ..plate });
+    assert_eq!(hang(&[("wind.velocity", "[0.5, 0, -2]")]).scene.settings.wind, Some(plate));
+}
+
+#[test]
 fn a_fabric_is_named_or_differs_from_a_named_one() {
     let named = hang(&[("fabric", "denim")]);
     assert_eq!(Some(&named.scene.settings.fabric), Fabric::preset("denim").as_ref());
@@ -92,6 +102,12 @@ fn wrong_overrides_name_the_key_and_what_there_is() {
         ("sweeps", "0"),
         ("safety", "1.5"),
         ("gravity", "[0, inf, 0]"),
+        ("wind", "{ velocity = [1, 0] }"),
+        ("wind", "{ drag = 1 }"),
+        ("wind", "{ velocity = [1, 0, 0], gusts = 3 }"),
+        ("wind", "{ velocity = [nan, 0, 0] }"),
+        ("wind", "{ velocity = [1, 0, 0], drag = -1 }"),
+        ("wind", "{ velocity = [1, 0, 0], lift = inf }"),
         ("name.first", "x"),
         ("", "1"),
     ];
@@ -104,7 +120,7 @@ fn wrong_overrides_name_the_key_and_what_there_is() {
         })
         .collect();
     insta::assert_snapshot!(messages.join("\n"), @r#"
-    hang.toml, key "speed": unknown field `speed`, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `spacing`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`
+    hang.toml, key "speed": unknown field `speed`, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `wind`, `spacing`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`
     hang.toml, key "fabric": unknown field `colour`, expected one of `base`, `name`, `areal_density`, `structural_stiffness`, `shear_stiffness`, `bend_stiffness`, `damping`, `thickness`, `friction`, `threshold`
     hang.toml, key "n": it is 1 and must be 2 to 8192
     hang.toml, key "n": it is 100000 and must be 2 to 8192
@@ -121,8 +137,14 @@ fn wrong_overrides_name_the_key_and_what_there_is() {
     hang.toml, key "sweeps": it must be at least 1; rule = "none" turns it off
     hang.toml, key "safety": it is 1.5 and must be 0 to 1
     hang.toml, key "gravity": it must be three finite numbers
+    hang.toml, key "wind": invalid length 2, expected an array of length 3
+    hang.toml, key "wind": missing field `velocity`
+    hang.toml, key "wind": unknown field `gusts`, expected one of `velocity`, `drag`, `lift`
+    hang.toml, key "wind.velocity": it must be three finite numbers
+    hang.toml, key "wind.drag": it is -1 and must be 0 or more
+    hang.toml, key "wind.lift": it is inf and must be 0 or more
     hang.toml, key "name.first": invalid type: map, expected a string
-    hang.toml, key "": unknown field ``, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `spacing`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`
+    hang.toml, key "": unknown field ``, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `wind`, `spacing`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`
     "#);
 }
 

@@ -11,3 +11,4 @@ mod sewing;
 mod statics;
 mod status;
 mod support;
+mod wind;

@@ -17,6 +17,7 @@ pub fn settings() -> StepSettings {
         dt: 1.0 / 600.0,
         steps_per_frame: 10,
         gravity: Vec3::new(0.0, -GRAVITY, 0.0),
+        wind: None,
         damping: 0.0,
         thickness: 1e-3,
         push_speed: 0.2,

@@ -1,0 +1,173 @@
+//! Wind on the device: drag, lift, and what they do to a sheet.
+
+use glam::{DVec2, DVec3, dvec3};
+use toile_gpu::Solver;
+use toile_model::{Model, NO_CORNER, StepSettings};
+use toile_scene::{AIR_DENSITY, Pin, Rule, Settings, Sheet, Wind};
+use toile_workspace::{Random, gpu, sheet_settings};
+
+/// A sheet of 0.5 m × 0.5 m and 0.2 kg/m² with its outside along `right × down`.
+fn sheet(right: DVec3, down: DVec3, pins: Vec<Pin>) -> Sheet {
+    let [columns, rows] = [11, 11];
+    Sheet { name: "sheet".to_owned(), columns, rows, size: DVec2::splat(0.5), corner: DVec3::ZERO, right, down, pins }
+}
+
+fn settings(wind: Wind, gravity: DVec3, damping: f64) -> Settings {
+    let mut settings = Settings { wind: Some(wind), gravity, ..sheet_settings() };
+    settings.fabric.damping = damping;
+    settings.velocity_modification.rule = Rule::None;
+    settings
+}
+
+struct Run {
+    model: Model,
+    settings: StepSettings,
+    solver: Solver,
+}
+
+impl Run {
+    fn new(sheet: &Sheet, settings: &Settings, change: impl FnOnce(&mut Model)) -> Self {
+        let mut model = Model::from_sheet(sheet, settings);
+        change(&mut model);
+        let settings = StepSettings::new(settings, &model);
+        let solver = Solver::new(&gpu().device, &model, &settings, Default::default()).expect("it fits the device");
+        Self { model, settings, solver }
+    }
+
+    fn step(&mut self, count: u32) {
+        gpu().run(|encoder| self.solver.record_steps(&gpu().device, encoder, count));
+    }
+
+    fn frame(&mut self) {
+        self.step(self.settings.steps_per_frame);
+    }
+
+    fn positions(&self) -> Vec<DVec3> {
+        gpu().vec3s(self.solver.positions()).iter().map(|p| p.as_dvec3()).collect()
+    }
+
+    fn velocities(&self) -> Vec<DVec3> {
+        gpu().vec3s(self.solver.velocities()).iter().map(|v| v.as_dvec3()).collect()
+    }
+}
+
+/// From v' = c·(w − v)² with c = ½·ρ·drag/σ: v = w − w/(1 + c·w·t).
+#[test]
+fn a_free_sheet_takes_on_the_wind_and_never_outruns_it() {
+    // The last needs the guard against overshooting: without, its first step would reach several times the wind.
+    for speed in [3.0, 25.0, 400.0] {
+        let wind = Wind::new(dvec3(0.0, 0.0, -speed));
+        let settings = settings(wind, DVec3::ZERO, 0.0);
+        let mut run = Run::new(&sheet(DVec3::X, DVec3::Y, Vec::new()), &settings, |_| ());
+        let rate = 0.5 * AIR_DENSITY * wind.drag / settings.fabric.areal_density * speed;
+        let mut last = 0.0;
+        for frame in 1..=20 {
+            run.frame();
+            let time = f64::from(run.settings.dt * (frame * run.settings.steps_per_frame) as f32);
+            let expected = speed - speed / (1.0 + rate * time);
+            for v in run.velocities() {
+                let along = -v.z;
+                assert!(along > last - 1e-4 * speed && along <= speed, "{speed} m/s: {along} after {last}");
+                assert!((v.x.abs() + v.y.abs()) < 1e-3 * speed, "{v}");
+                // The guard slows it while the step is long against 1/rate.
+                let coarse = rate * f64::from(run.settings.dt);
+                assert!((along - expected).abs() < (0.01 + coarse) * speed, "{speed} m/s: {along}, not {expected}");
+            }
+            last = -run.velocities()[0].z;
+        }
+        assert!(last > 0.5 * speed, "{last} of {speed} m/s");
+    }
+}
+
+#[test]
+fn a_sheet_edge_on_to_the_wind_feels_none() {
+    // A sheet in the plane of the wind, and the saboteur that leans out of it.
+    for (right, feels) in [(DVec3::Y, false), (dvec3(0.0, 0.8, 0.6), true)] {
+        let windy = settings(Wind::new(dvec3(0.0, 7.0, 0.0)), DVec3::ZERO, 0.0);
+        let calm = Settings { wind: None, ..windy.clone() };
+        // Springs whose rest length is rounded move by themselves, the same in both.
+        let [windy, calm] = [windy, calm].map(|settings| {
+            let mut run = Run::new(&sheet(right, DVec3::X, Vec::new()), &settings, |_| ());
+            run.frame();
+            run.velocities()
+        });
+        assert_eq!(windy != calm, feels, "{right}");
+    }
+}
+
+/// The force on a flat plate [N] as textbooks tell it: drag and lift by angle, in f64.
+fn plate(corners: &[DVec3], wind: &Wind) -> DVec3 {
+    let area = match corners {
+        [a, b, c] => 0.5 * (*b - *a).cross(*c - *a),
+        [a, b, c, d] => 0.5 * (*c - *a).cross(*d - *b),
+        _ => panic!("a quad or a triangle"),
+    };
+    let u = wind.velocity;
+    let angle = u.angle_between(area).min(u.angle_between(-area));
+    let pressure = 0.5 * AIR_DENSITY * u.length_squared() * area.length() * angle.cos();
+    // Across the wind, on the side to which the leeward normal leans.
+    let leeward = area * area.dot(u).signum();
+    let crosswise = (leeward - u * (leeward.dot(u) / u.length_squared())).normalize_or_zero();
+    u.normalize() * (pressure * wind.drag) + crosswise * (pressure * angle.sin() * wind.lift)
+}
+
+/// Sum of the forces on all quads [N].
+fn load(model: &Model, wind: &Wind) -> DVec3 {
+    let corners = |quad: &[u32; 4]| -> Vec<DVec3> {
+        quad.iter().filter(|i| **i != NO_CORNER).map(|i| model.positions[*i as usize].as_dvec3()).collect()
+    };
+    model.quads.iter().map(|quad| plate(&corners(quad), wind)).sum()
+}
+
+#[test]
+fn the_momentum_gained_is_the_sum_of_drag_and_lift_of_all_quads() {
+    let wind = Wind { velocity: dvec3(0.4, 0.9, -0.7), drag: 1.1, lift: 0.6 };
+    let settings = Settings { safety: 0.05, ..settings(wind, DVec3::ZERO, 0.0) };
+    let crumple = |model: &mut Model| {
+        let random = &mut Random::new(3);
+        for position in &mut model.positions {
+            *position += random.vector(0.02);
+        }
+    };
+    let mut run = Run::new(&sheet(DVec3::X, DVec3::NEG_Z, Vec::new()), &settings, crumple);
+    let force = load(&run.model, &wind);
+    let dt = f64::from(run.settings.dt);
+    run.step(1);
+    let gained: DVec3 = run.velocities().iter().zip(&run.model.masses).map(|(v, m)| *v * f64::from(*m)).sum();
+    // The guard takes dt·rate of it: 1.2 kg/m³ · 1.2 m/s · 1.7 / (2 · 0.2 kg/m²) · dt, less where quads stand askew, more where
+    // they are stretched.
+    let guarded = 0.5 * AIR_DENSITY * wind.velocity.length() * 1.7 / settings.fabric.areal_density * dt;
+    assert!(guarded < 0.01);
+    let error = (gained - force * dt).length() / (force * dt).length();
+    assert!(error < 2.0 * guarded, "gained {gained}, forces give {}", force * dt);
+    let without_lift = load(&run.model, &Wind { lift: 0.0, ..wind });
+    assert!((force - without_lift).length() > 0.1 * force.length(), "the test sees the lift");
+}
+
+/// A flag under uniform loads hangs straight along their sum. With θ from the plumb line, the wind carries
+/// q·cos θ·drag along itself and q·cos θ·sin θ·lift upward, per area; q = ½·ρ·w².
+#[test]
+fn a_flag_in_light_wind_hangs_along_gravity_and_wind_together() {
+    let speed = 0.65;
+    let wind = Wind::new(dvec3(0.0, 0.0, speed));
+    let settings = settings(wind, dvec3(0.0, -9.81, 0.0), 4.0);
+    let pins = (0..11).map(|column| Pin { column, row: 0 }).collect();
+    let mut run = Run::new(&sheet(DVec3::X, DVec3::NEG_Y, pins), &settings, |_| ());
+    for _ in 0..240 {
+        run.frame();
+    }
+    assert!(run.velocities().iter().all(|v| v.length() < 2e-3), "it hangs still");
+    let weight = settings.fabric.areal_density * 9.81;
+    let pressure = 0.5 * AIR_DENSITY * speed * speed;
+    let mut tilt = (pressure * wind.drag / weight).atan();
+    for _ in 0..20 {
+        let [sine, cosine] = [tilt.sin(), tilt.cos()];
+        tilt = (pressure * cosine * wind.drag / (weight - pressure * cosine * sine * wind.lift)).atan();
+    }
+    let end = run.positions();
+    for column in 0..11 {
+        let span = end[110 + column] - end[column];
+        let found = span.z.atan2(-span.y);
+        assert!((found - tilt).abs() < 0.02 * tilt, "column {column}: {found} rad, not {tilt}");
+    }
+}

@@ -1,0 +1,29 @@
+// Each particle takes an equal share of the wind on its quads, gathered in their fixed order.
+#import shared/item
+#import shared/step_params
+#import shared/quad
+
+@group(0) @binding(2) var<storage, read> quads: array<vec4<u32>>;
+@group(0) @binding(3) var<storage, read> quad_winds: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> particle_quad_offsets: array<u32>;
+@group(0) @binding(5) var<storage, read> particle_quads: array<u32>;
+@group(0) @binding(6) var<storage, read_write> forces: array<vec4<f32>>;
+
+@compute @workgroup_size(64)
+fn wind_forces(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
+    let i = item_index(id, groups);
+    if i >= step.particle_count {
+        return;
+    }
+    var force = forces[i].xyz;
+    let end = particle_quad_offsets[i + 1u];
+    for (var k = particle_quad_offsets[i]; k < end; k++) {
+        let quad = particle_quads[k];
+        var share = 0.25;
+        if quads[quad].w == NO_CORNER {
+            share = 1.0 / 3.0;
+        }
+        force = force + quad_winds[quad].xyz * share;
+    }
+    forces[i] = vec4<f32>(force, 0.0);
+}
