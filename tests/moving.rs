@@ -152,7 +152,8 @@ fn a_surface_between_two_poses_is_where_its_velocity_says() {
             let lag = toile_reference::Lag::of(step, 16, interval as f32 / 16.0);
             let lag = toile_reference::Lag { start: (interval * (1.0 - share)) as f32, ..lag };
             let still = toile_reference::Lag::default();
-            let probe = |lag| toile_reference::step::sample_maps(&[point], &[Vec3::ZERO], &maps, lag, &settings)[0];
+            let probe =
+                |lag| toile_reference::step::sample_moving_maps(&[point], &[Vec3::ZERO], &maps, lag, &settings)[0];
             worst[0] = worst[0].max((probe(lag).distance - 0.01).abs());
             worst[1] = worst[1].max((probe(still).distance - 0.01).abs());
         }

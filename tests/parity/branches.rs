@@ -271,7 +271,7 @@ fn maps(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize)
     let swept = StepSettings { swept: true, ..before.settings.clone() };
     let unswept = StepSettings { swept: false, ..before.settings.clone() };
     let [with, without] = [swept, unswept]
-        .map(|settings| toile_reference::step::sample_maps(&points, &velocities, maps, before.lag, &settings));
+        .map(|settings| toile_reference::step::sample_moving_maps(&points, &velocities, maps, before.lag, &settings));
     let differs = with.iter().zip(&without).filter(|(a, b)| a != b && a.distance.is_finite()).count();
     see("is answered where it enters", differs);
     let names = [

@@ -4,7 +4,7 @@ use crate::branches;
 use crate::input::Input;
 use crate::seeded::{VARIANTS, input};
 use toile_kernels::{Kernel, TABLE};
-use toile_reference::{Lag, Probe, frame, maps, step};
+use toile_reference::{Probe, frame, maps, step};
 use toile_workspace::{Compiled, Inputs, first_difference, gpu};
 
 /// One item, and around the border of a workgroup, and more than a few of them.
@@ -41,11 +41,11 @@ pub fn reference(kernel: Kernel, input: &mut Input) {
         }
         Kernel::SampleMaps => {
             let [positions, velocities] = before.points();
-            input.probes = step::sample_maps(&positions, &velocities, &before.layers.read, Lag::default(), settings);
+            input.probes = step::sample_maps(&positions, &velocities, &before.layers.read, settings);
         }
         Kernel::SampleMovingMaps => {
             let [positions, velocities] = before.points();
-            input.probes = step::sample_maps(&positions, &velocities, &before.layers.read, before.lag, settings);
+            input.probes = step::sample_moving_maps(&positions, &velocities, &before.layers.read, before.lag, settings);
         }
         Kernel::MorphBody => {
             let body = &mut input.body;

@@ -180,7 +180,10 @@ impl Reference {
 
     fn probes(&self, positions: &[Vec3], velocities: &[Vec3], lag: Lag) -> Vec<Probe> {
         let mut probes = match &self.colliders.maps {
-            Some(maps) => step::sample_maps(positions, velocities, maps, lag, &self.settings),
+            Some(maps) if maps.velocities.is_some() => {
+                step::sample_moving_maps(positions, velocities, maps, lag, &self.settings)
+            }
+            Some(maps) => step::sample_maps(positions, velocities, maps, &self.settings),
             None => vec![Probe::default(); positions.len()],
         };
         if let Some(sphere) = &self.colliders.sphere {

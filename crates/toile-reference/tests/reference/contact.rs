@@ -4,7 +4,7 @@ use crate::support::{GRAVITY, Grid, box_mesh, settings};
 use glam::{DVec3, Vec3, vec3};
 use toile_model::{NO_CORNER, StepSettings};
 use toile_reference::maps::{BodyMaps, Surface, render_maps};
-use toile_reference::{Ball, Colliders, Contact, Lag, Probe, Reference, step};
+use toile_reference::{Ball, Colliders, Contact, Probe, Reference, step};
 use toile_scene::{Friction, Rule, Sphere, SphereMotion};
 
 /// Coulomb coefficient of the plate: it holds up to 16.7°.
@@ -95,7 +95,7 @@ fn a_rebound_gives_back_its_part_of_the_approach() {
     for position in &mut model.positions {
         position.z = 0.0005;
     }
-    let probes = step::sample_maps(&model.positions, &[vec3(0.1, 0.0, -1.0); 4], &maps, Lag::default(), &settings);
+    let probes = step::sample_maps(&model.positions, &[vec3(0.1, 0.0, -1.0); 4], &maps, &settings);
     let mut particles = toile_reference::Particles::new(&model);
     particles.velocities = vec![vec3(0.1, 0.0, -1.0); 4];
     let midpoints = step::quad_midpoints(&particles.positions, &particles.velocities, &model.quads);
@@ -130,13 +130,13 @@ fn the_nearer_side_of_the_plate_answers() {
     let settings = settings();
     // Farther out than the reach of four texels of the plate's maps nothing answers.
     let points = [-0.01, -0.09, 0.1, -0.2].map(|z| vec3(0.203, 0.104, z));
-    let probes = step::sample_maps(&points, &[Vec3::ZERO; 4], &maps, Lag::default(), &settings);
+    let probes = step::sample_maps(&points, &[Vec3::ZERO; 4], &maps, &settings);
     assert_eq!(probes.iter().map(|probe| probe.hit).collect::<Vec<_>>(), [true, true, false, false]);
     assert_eq!((probes[0].normal, probes[1].normal), (Vec3::Z, Vec3::NEG_Z));
     for probe in &probes[..2] {
         assert!((probe.distance + 0.01).abs() < 1e-6, "{probe:?}");
     }
-    let not_a_number = step::sample_maps(&[Vec3::NAN], &[Vec3::ZERO], &maps, Lag::default(), &settings);
+    let not_a_number = step::sample_maps(&[Vec3::NAN], &[Vec3::ZERO], &maps, &settings);
     assert!(!not_a_number[0].hit);
 }
 
@@ -187,7 +187,7 @@ fn maps_are_read_where_they_were_drawn() {
     let mesh = box_mesh(vec3(0.1, 0.3, 0.0), vec3(0.2, 0.5, 0.1));
     let maps = render_maps(&[Surface { mesh: &mesh, thickness: 0.0, velocities: None }], 0.01);
     let points = [vec3(0.12, 0.33, 0.05), vec3(0.18, 0.48, 0.05), vec3(0.12, 0.28, 0.05), vec3(0.08, 0.48, 0.05)];
-    let probes = step::sample_maps(&points, &[Vec3::ZERO; 4], &maps, Lag::default(), &settings());
+    let probes = step::sample_maps(&points, &[Vec3::ZERO; 4], &maps, &settings());
     assert_eq!(probes.iter().map(|probe| probe.hit).collect::<Vec<_>>(), [true, true, false, false]);
 }
 

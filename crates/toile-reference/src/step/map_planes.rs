@@ -1,0 +1,218 @@
+//! What points see of the surfaces in the maps. W §4.3 and §4.4.
+
+use crate::maps::BodyMaps;
+use crate::{Lag, Probe};
+use glam::{Vec3, vec3};
+use toile_model::{MapFrame, StepSettings};
+
+/// How far in front of a surface its texels still answer, in texels: on a slope the plane through a texel's centre reaches
+/// out of the depth range of the texel.
+const REACH: f32 = 4.0;
+
+/// How much deeper than the least deep of four texels another may be and still belong to the same surface, in texels.
+const SAME_SURFACE: f32 = 2.0;
+
+/// Most places on the way of a point that are tested; up to so many texels per step none is left out.
+const WAY_PLACES: f32 = 16.0;
+
+/// The surface that each point meets in the coming move, or none. All arrays have the shape [point_count].
+///
+/// A point is inside when it lies between the front and the back of its texel; the nearer side answers, by the tangent plane
+/// at the texel's centre. The planes of the four texels around the point are blended bilinearly, so that the
+/// surface has no steps. A point that starts outside and enters on its way is answered by the side where it entered.
+/// W §4.4, eq. 11 and 12.
+///
+/// Surfaces with a velocity stand back by it for as long as the step is before the time of the maps. W §4.3.
+pub(super) fn look_at_maps(
+    positions: &[Vec3],
+    velocities: &[Vec3],
+    maps: &BodyMaps,
+    lag: Lag,
+    settings: &StepSettings,
+) -> Vec<Probe> {
+    let view = View { maps, lag, swept: settings.swept };
+    positions
+        .iter()
+        .zip(velocities)
+        .map(|(&position, &velocity)| view.look(position, velocity, settings.dt))
+        .map(Option::unwrap_or_default)
+        .collect()
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Standing {
+    InFront,
+    Behind,
+    Inside,
+    Beside,
+}
+
+/// The texel that holds a place, if the maps reach so far.
+struct Texel {
+    index: usize,
+    front: f32,
+    back: f32,
+}
+
+struct View<'a> {
+    maps: &'a BodyMaps,
+    lag: Lag,
+    swept: bool,
+}
+
+impl View<'_> {
+    fn look(&self, position: Vec3, velocity: Vec3, dt: f32) -> Option<Probe> {
+        let frame = &self.maps.frame;
+        let next = position + velocity * dt;
+        let drift = self.drift(next, velocity);
+        let (place, side) = self.entry(position + drift * self.lag.start, next + drift * self.lag.end);
+        let [across, down] = texels(frame, place).map(|texels| texels - 0.5);
+        let [left, top] = [across.floor(), down.floor()];
+        if !(left >= 0.0 && left + 1.0 < frame.columns as f32 && top >= 0.0 && top + 1.0 < frame.rows as f32) {
+            return None;
+        }
+        let [right_share, bottom_share] = [across - left, down - top];
+        let corners = [
+            (left, top, (1.0 - right_share) * (1.0 - bottom_share)),
+            (left + 1.0, top, right_share * (1.0 - bottom_share)),
+            (left, top + 1.0, (1.0 - right_share) * bottom_share),
+            (left + 1.0, top + 1.0, right_share * bottom_share),
+        ];
+        let planes = corners.map(|(column, row, _)| self.plane(position, place, side, column, row));
+        let mut nearest = -1e9;
+        for plane in planes.iter().filter(|plane| plane.hit) {
+            nearest = plane.distance.max(nearest);
+        }
+        let mut weight_sum = 0.0;
+        let mut normal = Vec3::ZERO;
+        let mut distance = 0.0;
+        let mut velocity = Vec3::ZERO;
+        for (plane, (_, _, weight)) in planes.iter().zip(corners) {
+            if plane.hit && plane.distance >= nearest - SAME_SURFACE * frame.texel {
+                weight_sum += weight;
+                normal += plane.normal * weight;
+                distance += plane.distance * weight;
+                velocity += plane.velocity * weight;
+            }
+        }
+        let length = normal.length();
+        if !(weight_sum > 0.0 && length > 0.0) {
+            return None;
+        }
+        Some(Probe {
+            normal: normal / length,
+            distance: distance / weight_sum,
+            velocity: velocity / weight_sum,
+            hit: true,
+        })
+    }
+
+    /// Velocity of the surface near a place; that of the point itself where the maps show none.
+    fn drift(&self, next: Vec3, velocity: Vec3) -> Vec3 {
+        let Some(layers) = &self.maps.velocities else { return Vec3::ZERO };
+        match self.texel_under(next) {
+            None => velocity,
+            Some(texel) if (next.z - texel.front).abs() <= (next.z - texel.back).abs() => layers[0][texel.index],
+            Some(texel) => layers[1][texel.index],
+        }
+    }
+
+    /// Where a way enters a surface, and from which side; its end and `Inside` when it does not.
+    fn entry(&self, start: Vec3, end: Vec3) -> (Vec3, Standing) {
+        if !self.swept {
+            return (end, Standing::Inside);
+        }
+        let mut before = self.standing(start);
+        if let (Standing::Inside, Some(texel)) = (before, self.texel_under(start)) {
+            // It may lie on the surface: it must not leave by the other side.
+            let near_front = texel.front - start.z <= start.z - texel.back;
+            return match self.standing(end) {
+                Standing::Behind if near_front => (start, Standing::InFront),
+                Standing::InFront if !near_front => (start, Standing::Behind),
+                _ => (end, Standing::Inside),
+            };
+        }
+        let way = end - start;
+        let places = (way.truncate().length() / self.maps.frame.texel).ceil().clamp(1.0, WAY_PLACES);
+        let mut k = 1.0;
+        while k <= places {
+            let place = if k < places { self.centred(start + way * (k / places)) } else { end };
+            let now = self.standing(place);
+            match (before, now) {
+                (Standing::Beside, Standing::Inside) => return (place, Standing::Inside),
+                (Standing::InFront, Standing::Inside | Standing::Behind)
+                | (Standing::Behind, Standing::Inside | Standing::InFront) => return (place, before),
+                _ => before = now,
+            }
+            k += 1.0;
+        }
+        (end, Standing::Inside)
+    }
+
+    /// A place moved to the centre of its texel: then a place between two others, which a device may round in its own way, gives
+    /// the same bits everywhere.
+    fn centred(&self, place: Vec3) -> Vec3 {
+        let frame = &self.maps.frame;
+        let [column, row] = texels(frame, place).map(|texels| texels.floor() + 0.5);
+        vec3(frame.origin_x + column * frame.texel, frame.origin_y - row * frame.texel, place.z)
+    }
+
+    fn standing(&self, place: Vec3) -> Standing {
+        match self.texel_under(place) {
+            None => Standing::Beside,
+            Some(texel) if place.z > texel.front => Standing::InFront,
+            Some(texel) if place.z < texel.back => Standing::Behind,
+            Some(_) => Standing::Inside,
+        }
+    }
+
+    /// The texel that holds a place, where it shows a surface.
+    fn texel_under(&self, place: Vec3) -> Option<Texel> {
+        let frame = &self.maps.frame;
+        let [column, row] = texels(frame, place).map(f32::floor);
+        if !(column >= 0.0 && column < frame.columns as f32 && row >= 0.0 && row < frame.rows as f32) {
+            return None;
+        }
+        self.texel(column, row)
+    }
+
+    fn texel(&self, column: f32, row: f32) -> Option<Texel> {
+        let frame = &self.maps.frame;
+        let index = row as usize * frame.columns as usize + column as usize;
+        let [depth_front, depth_back] = [self.maps.depth[0][index], self.maps.depth[1][index]];
+        let range = frame.z_front - frame.z_back;
+        let [front, back] = [frame.z_front - depth_front * range, frame.z_back + depth_back * range];
+        (depth_front < 1.0 && depth_back < 1.0).then_some(Texel { index, front, back })
+    }
+
+    /// What one texel says to a point at `position`: the plane through the texel's centre on the entered or nearer side.
+    fn plane(&self, position: Vec3, place: Vec3, side: Standing, column: f32, row: f32) -> Probe {
+        let frame = &self.maps.frame;
+        let Some(texel) = self.texel(column, row) else { return Probe::default() };
+        let reach = REACH * frame.texel;
+        let reaches_front = place.z < texel.front + reach || side == Standing::Behind;
+        let reaches_back = place.z > texel.back - reach || side == Standing::InFront;
+        if !(reaches_front && reaches_back) {
+            return Probe::default();
+        }
+        let x = frame.origin_x + (column + 0.5) * frame.texel;
+        let y = frame.origin_y - (row + 0.5) * frame.texel;
+        let seen = [(0, texel.front), (1, texel.back)].map(|(layer, z)| {
+            let normal = self.maps.normals[layer][texel.index];
+            let velocity = self.maps.velocities.as_ref().map_or(Vec3::ZERO, |layers| layers[layer][texel.index]);
+            let distance = normal.dot((position + velocity * self.lag.start) - vec3(x, y, z));
+            Probe { normal, distance, velocity, hit: true }
+        });
+        let front = match side {
+            Standing::InFront => true,
+            Standing::Behind => false,
+            Standing::Inside | Standing::Beside => seen[0].distance >= seen[1].distance,
+        };
+        seen[usize::from(!front)]
+    }
+}
+
+/// Place in the maps, in texels from their left and upper border.
+fn texels(frame: &MapFrame, place: Vec3) -> [f32; 2] {
+    [(place.x - frame.origin_x) / frame.texel, (frame.origin_y - place.y) / frame.texel]
+}
