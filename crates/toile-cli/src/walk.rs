@@ -126,7 +126,7 @@ fn simulate(walk: &Walk, gpu: &Gpu, walkers: &[Walker], saved: &Saved, running: 
                 walk.body.duration()
             );
         }
-        let bytes = outfit.keep_maps(&gpu.device, &mut encoder, &walk.body, interval)?;
+        let bytes = outfit.keep_maps(&gpu.device, &mut encoder, &walk.body, interval);
         if !running.quiet && !running.json {
             print(&format!("the maps of a round take {:.0} MiB", bytes as f64 / f64::from(1 << 20)))?;
         }

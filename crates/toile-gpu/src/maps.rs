@@ -147,6 +147,21 @@ impl BodyMaps {
         })
     }
 
+    /// Empty maps of the same size and kind, which share the pipeline of these.
+    pub fn new_alike(&self, device: &wgpu::Device) -> Self {
+        let map = |label, format| Map::new(device, label, format, self.size);
+        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+        Self {
+            size: self.size,
+            depth: map("depth map", DEPTH_FORMAT),
+            normals: map("normal map", COLOUR_FORMAT),
+            velocities: self.is_moving().then(|| map("velocity map", COLOUR_FORMAT)),
+            frame_uniform: create(device, "map_frame", &vec![0; self.frame_uniform.size() as usize], usage),
+            pipeline: self.pipeline.clone(),
+            layout: self.layout.clone(),
+        }
+    }
+
     /// Records the drawing of all surfaces into a frame, each offset along its normals by the thickness beside it [m].
     ///
     /// # Panics

@@ -111,47 +111,6 @@ impl Skin {
         let (positions, normals) = (0..self.positions.len()).map(vertex).unzip();
         [positions, normals]
     }
-
-    /// For each joint the box of bind positions of the vertices that hang on it, wide enough for every mixture of morph
-    /// targets with weights from −1 to 1; `None` where no vertex does. With [`Pose::bounds`] they bound the posed mesh, loosely
-    /// where a vertex hangs on a far joint by however small a weight.
-    pub fn joint_boxes(&self) -> Vec<Option<[Vec3; 2]>> {
-        let joint_count = self.influences.iter().map(|share| share.joint + 1).max().unwrap_or(0);
-        let mut boxes: Vec<Option<[Vec3; 2]>> = vec![None; joint_count as usize];
-        for (vertex, position) in self.positions.iter().enumerate() {
-            let reach: Vec3 = self.displacements_of(vertex).iter().map(|morph| morph.position.abs()).sum();
-            let [low, high] = [*position - reach, *position + reach];
-            for share in self.influences_of(vertex).iter().filter(|share| share.weight > 0.0) {
-                let grown = &mut boxes[share.joint as usize];
-                *grown = Some(grown.map_or([low, high], |[l, h]| [l.min(low), h.max(high)]));
-            }
-        }
-        boxes
-    }
-}
-
-impl Pose {
-    /// Smallest and largest corner of a box [m] around every vertex of a mesh in this pose, for the boxes of
-    /// [`Skin::joint_boxes`]. A vertex lies between the places that its joints would give it, so it lies inside of the boxes that
-    /// the joints carry. Without any box the low corner is +∞ and the high one −∞.
-    pub fn bounds(&self, boxes: &[Option<[Vec3; 2]>]) -> [Vec3; 2] {
-        let mut bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];
-        let mut largest = 0.0f64;
-        for (rows, corners) in self.joints.iter().zip(boxes) {
-            let Some(corners) = corners.map(|corners| corners.map(|corner| corner.as_dvec3())) else { continue };
-            for corner in 0..8 {
-                let side = |axis: usize| corners[(corner >> axis) & 1][axis];
-                let point = DVec4::new(side(0), side(1), side(2), 1.0);
-                let placed = DVec3::from_array(rows.map(|row| row.as_dvec4().dot(point)));
-                let terms = rows.map(|row| (row.as_dvec4() * point).abs().element_sum());
-                bounds = [bounds[0].min(placed), bounds[1].max(placed)];
-                largest = terms.into_iter().fold(largest, f64::max);
-            }
-        }
-        // A vertex shader rounds each of its few dozen operations.
-        let rounding = largest * 32.0 * f64::from(f32::EPSILON);
-        [(bounds[0] - rounding).as_vec3(), (bounds[1] + rounding).as_vec3()]
-    }
 }
 
 /// A unit normal under a linear map that need not keep angles; zero where the map flattens it. The cofactors stand for the
@@ -219,18 +178,5 @@ mod tests {
         let [positions, normals] = skin().posed(&joints, &[2.0, 1.0]);
         assert_eq!(positions, [vec3(1.0, 2.5, 0.0)]);
         assert_eq!(normals, [Vec3::Y]);
-    }
-
-    #[test]
-    fn boxes_reach_as_far_as_morphs_can() {
-        let wide = Some([vec3(1.0, -0.25, -0.75), vec3(1.0, 0.25, 0.75)]);
-        assert_eq!(skin().joint_boxes(), [wide, None, wide]);
-        let joints = [DMat4::IDENTITY, DMat4::ZERO, DMat4::from_translation(dvec3(0.0, 4.0, 0.0))];
-        let rows = joints.map(|matrix| [0, 1, 2].map(|row| matrix.row(row).as_vec4()));
-        let pose = Pose { joints: rows.to_vec(), morph_weights: vec![0.0; 2] };
-        let [low, high] = pose.bounds(&skin().joint_boxes());
-        assert!(low.distance(vec3(1.0, -0.25, -0.75)) < 1e-4 && high.distance(vec3(1.0, 4.25, 0.75)) < 1e-4);
-        let [low, high] = pose.bounds(&[]);
-        assert!(low.x > high.x);
     }
 }

@@ -66,6 +66,8 @@ pub struct Outfit {
     thickness: f32,
     maps_per_frame: u32,
     time: f64,
+    /// Where the maps stand.
+    shown: MapFrame,
     garments: Vec<Garment>,
     kept: Option<KeptMaps>,
 }
@@ -83,7 +85,13 @@ struct KeptMaps {
 struct Garment {
     simulation: Simulation,
     maps: Arc<BodyMaps>,
-    /// What the maps of later garments draw of this one.
+    /// What the maps of the next garment draw of this one; the outermost has none.
+    seen: Option<Seen>,
+}
+
+/// A garment as the one over it sees it.
+#[derive(Debug)]
+struct Seen {
     surface: Surface,
     trail: Trail,
 }
@@ -108,54 +116,58 @@ impl Outfit {
     ) -> Result<Self, Error> {
         let thickness = garments.iter().map(|(_, settings)| settings.thickness).fold(0.0, f32::max);
         let frame = MovingFrame::new(body, texel, thickness, garments.len() > 1);
+        let shown = frame.at(0.0);
         let mut moving = MovingBody::new(device, body)?;
         moving.record_pose(device, encoder, 0.0);
+        let outermost = garments.len().saturating_sub(1);
         let garments = garments
             .iter()
-            .map(|(model, settings)| {
+            .enumerate()
+            .map(|(index, (model, settings))| {
                 let steps = settings.steps_per_frame;
                 assert!(maps_per_frame > 0 && steps % maps_per_frame == 0, "{steps} steps, {maps_per_frame} maps");
                 let maps = Arc::new(BodyMaps::new(device, frame.at(0.0), true)?);
                 let colliders = Colliders { maps: Some(maps.clone()), sphere: None };
                 let simulation = Simulation::new(device, model, settings, colliders)?;
                 let drawn = simulation.frame();
-                let trail = Trail::new(device, &drawn.positions, drawn.particle_count);
-                let surface = Surface { velocities: Some(trail.velocities().clone()), ..Surface::from(drawn) };
-                Ok(Garment { simulation, maps, surface, trail })
+                let seen = (index < outermost).then(|| {
+                    let trail = Trail::new(device, &drawn.positions, drawn.particle_count);
+                    let surface = Surface { velocities: Some(trail.velocities().clone()), ..Surface::from(drawn) };
+                    Seen { surface, trail }
+                });
+                Ok(Garment { simulation, maps, seen })
             })
             .collect::<Result<_, Error>>()?;
-        Ok(Self { body: moving, frame, thickness, maps_per_frame, time: 0.0, garments, kept: None })
+        Ok(Self { body: moving, frame, thickness, maps_per_frame, time: 0.0, shown, garments, kept: None })
     }
 
     /// Draws the maps of a whole round of the body now and keeps them, one every `interval` seconds: frames then copy them instead
     /// of posing and drawing the body. Gives the bytes that they take. D §7, W §6.
     ///
-    /// # Errors
-    /// [`Error::Gpu`] when they do not fit the device.
-    ///
     /// # Panics
-    /// When the motion is not closed or not a whole number of intervals long; see [`Outfit::can_keep_maps`].
+    /// When the outfit has no garment, or the motion is not closed or not a whole number of intervals long; see [`Outfit::can_keep_maps`].
     pub fn keep_maps(
         &mut self,
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
         body: &MovingMesh,
         interval: f64,
-    ) -> Result<u64, Error> {
+    ) -> u64 {
         let count = Self::can_keep_maps(body, interval).expect("a closed motion of a whole number of intervals");
+        let first = self.garments.first().expect("an outfit has a garment").maps.clone();
         self.body.record_pose(device, encoder, 0.0);
         let mut maps = Vec::with_capacity(count as usize);
         for index in 1..=count {
             let time = f64::from(index) * interval;
             self.body.record_pose(device, encoder, time);
             let frame = self.frame.at(time);
-            let drawn = BodyMaps::new(device, frame, true)?;
+            let drawn = first.new_alike(device);
             drawn.record(device, encoder, frame, &[(self.body.surface(), self.thickness)]);
             maps.push((drawn, frame));
         }
         let bytes = maps.iter().map(|(maps, _)| maps.bytes()).sum();
         self.kept = Some(KeptMaps { interval, maps });
-        Ok(bytes)
+        bytes
     }
 
     /// How many maps a round of a body has, one every `interval` seconds; `None` when its motion is not closed or not a whole
@@ -182,19 +194,22 @@ impl Outfit {
         self.record_outputs(encoder);
     }
 
-    /// Records the next pose of the body [s], and what every garment sees of it.
+    /// Records the next pose of the body [s], and what the innermost garment sees of it.
     pub fn record_pose(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, time: f64) {
         self.time = time;
         if let Some(kept) = &self.kept {
             let index = (time / kept.interval).round() as usize + kept.maps.len() - 1;
             let (maps, frame) = &kept.maps[index % kept.maps.len()];
-            self.garments.iter().for_each(|garment| garment.maps.record_copy(device, encoder, maps, *frame));
+            self.shown = *frame;
+            if let Some(innermost) = self.garments.first() {
+                innermost.maps.record_copy(device, encoder, maps, *frame);
+            }
             return;
         }
         self.body.record_pose(device, encoder, time);
-        let frame = self.frame.at(time);
-        for garment in &self.garments {
-            garment.maps.record(device, encoder, frame, &[(self.body.surface(), self.thickness)]);
+        self.shown = self.frame.at(time);
+        if let Some(innermost) = self.garments.first() {
+            innermost.maps.record(device, encoder, self.shown, &[(self.body.surface(), self.thickness)]);
         }
     }
 
@@ -203,15 +218,20 @@ impl Outfit {
         for index in 0..self.garments.len() {
             let (inner, outer) = self.garments.split_at_mut(index);
             let garment = &mut outer[0];
-            if !inner.is_empty() {
-                // The inner garments have gone to the same time already.
-                let surfaces: Vec<_> = inner.iter().map(|inner| (&inner.surface, self.thickness)).collect();
-                garment.maps.record_over(device, encoder, &surfaces);
+            if let Some(Garment { maps, seen: Some(seen), .. }) = inner.last() {
+                // What the garment below sees, and that garment, which has gone to the same time already.
+                garment.maps.record_copy(device, encoder, maps, self.shown);
+                garment.maps.record_over(device, encoder, &[(&seen.surface, self.thickness)]);
             }
             let steps = garment.simulation.settings().steps_per_frame / self.maps_per_frame;
-            garment.trail.record_leaving(encoder);
+            let trail = garment.seen.as_ref().map(|seen| &seen.trail);
+            if let Some(trail) = trail {
+                trail.record_leaving(encoder);
+            }
             garment.simulation.record_steps(device, encoder, steps);
-            garment.trail.record_arrival(device, encoder, interval);
+            if let Some(trail) = trail {
+                trail.record_arrival(device, encoder, interval);
+            }
         }
     }
 
@@ -249,7 +269,8 @@ impl Outfit {
 
     /// Bytes on the device.
     pub fn bytes(&self) -> u64 {
-        let garments = self.garments.iter().map(|garment| garment.simulation.bytes() + garment.trail.bytes());
+        let trails = |garment: &Garment| garment.seen.as_ref().map_or(0, |seen| seen.trail.bytes());
+        let garments = self.garments.iter().map(|garment| garment.simulation.bytes() + trails(garment));
         let kept = self.kept.iter().flat_map(|kept| &kept.maps).map(|(maps, _)| maps.bytes());
         self.body.bytes() + garments.sum::<u64>() + kept.sum::<u64>()
     }

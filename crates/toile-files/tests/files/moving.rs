@@ -63,27 +63,6 @@ fn only_the_loop_is_closed() {
     assert_eq!(first.body.at(0.5), walk.at(0.5));
 }
 
-#[test]
-fn boxes_of_joints_hold_the_walking_woman() {
-    let mut widest = glam::Vec3::ZERO;
-    for clip in CLIPS {
-        let body = woman(clip);
-        let Motion::Skinned { skin, rig } = &body.motion else { panic!("a skin") };
-        let boxes = skin.joint_boxes();
-        for frame in 0..22 {
-            let time = body.duration() * f64::from(frame) / 21.0;
-            let [low, high] = rig.pose(time).bounds(&boxes);
-            let [exact_low, exact_high] = body.at(time).bounds().expect("vertices");
-            assert!(low.cmple(exact_low).all() && high.cmpge(exact_high).all(), "{clip} {time}");
-            let excess = (high - low) / (exact_high - exact_low) - 1.0;
-            widest = widest.max(excess);
-        }
-    }
-    // x and z by stray weights of the fixture: a few vertices of the right hand and the right toes hang a little on joints of
-    // the left ones, whose boxes then span both. Height has none of it.
-    assert!(widest.cmplt(glam::vec3(0.95, 0.02, 0.65)).all(), "{widest}");
-}
-
 /// A glTF of two ellipsoids. The first hangs on two joints by two sets and has two morph targets; the second is carried by
 /// a node that turns. Everything moves for two seconds.
 pub fn puppet() -> (Value, Vec<u8>) {
