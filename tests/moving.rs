@@ -6,7 +6,7 @@ use toile_gpu::MovingBody;
 use toile_model::{Model, StepSettings};
 use toile_reference::maps::{BodyMaps, Surface, render_maps_in, skin_body, vertex_velocities};
 use toile_reference::{Colliders, Reference};
-use toile_scene::{Cloth, Motion, MovingMesh, RigidKey, Rule, Scene};
+use toile_scene::{Cloth, Motion, MovingMesh, RigidKey, Rule, Scene, VelocityModification};
 use toile_workspace::{Layers, first_difference, fixture, gpu, read_maps, scene, uv_sphere, vec3_words};
 
 fn walking(clip: &str) -> MovingMesh {
@@ -170,7 +170,7 @@ fn passed(speed: f64, swept: bool) -> usize {
     let mut scene = scene("hang", &[("n", "24")]);
     scene.settings.gravity = DVec3::ZERO;
     // Limits would tear the cloth off the ball at such speeds.
-    scene.settings.velocity_modification.rule = Rule::None;
+    scene.settings.velocity_modification = VelocityModification::new(Rule::None);
     let Cloth::Sheet(sheet) = &mut scene.cloths[0] else { panic!("the scene has a sheet") };
     sheet.pins.clear();
     sheet.down = -DVec3::Y;

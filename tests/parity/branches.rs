@@ -87,6 +87,14 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
             let pairs: Vec<_> = before.colour_limits().iter().map(|l| l.ends.map(|end| end as usize)).collect();
             ends(&pairs, before, after, &mut see);
         }
+        Kernel::LimitAttachments => {
+            let attached = |i: &usize| !before.attachments.row(*i).is_empty();
+            let pinned = |i: &usize| weights[*i] == 0.0;
+            see("has none", particles().filter(|i| !attached(i)).count());
+            see("is pinned", particles().filter(|i| attached(i) && pinned(i) && !changed(*i)).count());
+            see("is held", particles().filter(|i| attached(i) && changed(*i)).count());
+            see("is near enough", particles().filter(|i| attached(i) && !pinned(i) && !changed(*i)).count());
+        }
         Kernel::LimitDirectional => directional(before, after, &mut see),
         Kernel::QuadMidpoints => {
             see("is a triangle", before.quads.iter().filter(|q| q[3] == NO_CORNER).count());
@@ -144,11 +152,11 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
         Kernel::LimitStatus => {
             see("is over-long", after.status.over_long_count as usize);
             see("is not over-long", before.limits.len() - after.status.over_long_count as usize);
-            let exact = |l: &&toile_model::Limit| {
+            let at_rest = |l: &&toile_model::Limit| {
                 let [a, b] = l.ends.map(|end| positions[end as usize]);
-                (b - a).length() == l.max_length
+                (b - a).length() == l.rest_length
             };
-            see("is exactly as long as it may be", before.limits.iter().filter(exact).count());
+            see("is at rest", before.limits.iter().filter(at_rest).count());
         }
         Kernel::SeamStatus => {
             let gaps = before.seam_pairs.iter().map(|s| s.ends.map(|end| positions[end as usize]));

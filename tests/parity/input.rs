@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3, Vec4};
 use std::ops::Range;
 use toile_gpu::BodyMaps;
 use toile_kernels::structs;
-use toile_model::{Csr, Hold, Limit, Link, SeamPair, StepSettings};
+use toile_model::{Attachment, Csr, Hold, Limit, Link, SeamPair, StepSettings};
 use toile_reference::{Ball, Contact, Lag, Midpoints, Particles, Probe};
 use toile_scene::{Friction, Pose, Skin, Wind};
 use toile_workspace::{Inputs, Layers};
@@ -25,6 +25,7 @@ pub struct Input {
     pub quad_winds: Vec<Vec3>,
     pub links: Csr<Link>,
     pub limits: Vec<Limit>,
+    pub attachments: Csr<Attachment>,
     pub seam_pairs: Vec<SeamPair>,
     /// The items of the colour that the dispatch works on.
     pub span: Range<u32>,
@@ -103,7 +104,7 @@ impl Input {
             gravity: s.gravity,
             dt: s.dt,
             damping: s.damping,
-            push_speed: s.push_speed,
+            push_speed: s.push_speed_per_sweep(),
             contact_margin: s.contact_margin,
             reflection: s.reflection,
             friction_law,
@@ -118,6 +119,8 @@ impl Input {
             wind: wind.velocity.as_vec3(),
             drag: wind.drag as f32,
             lift: wind.lift as f32,
+            threshold: s.threshold,
+            limit_count: self.limits.len() as u32,
         }
     }
 }
@@ -193,6 +196,10 @@ impl Inputs for Input {
                 rest_length: l.rest_length,
                 max_length: l.max_length,
             })),
+            "attachment_offsets" => words(&self.attachments.offsets),
+            "attachments" => array(
+                self.attachments.values.iter().map(|a| structs::Attachment { pin: a.pin, max_length: a.max_length }),
+            ),
             "seam_pairs" => array(self.seam_pairs.iter().map(|s| structs::SeamPair {
                 first: s.ends[0],
                 second: s.ends[1],

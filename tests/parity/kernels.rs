@@ -34,6 +34,7 @@ pub fn reference(kernel: Kernel, input: &mut Input) {
         Kernel::LimitDirectional => {
             step::limit_directional(particles, before.colour_limits(), Some(&before.contacts), settings);
         }
+        Kernel::LimitAttachments => step::limit_attachments(particles, &before.attachments, dt),
         Kernel::LimitPredictive => step::limit_predictive(particles, before.colour_limits(), dt),
         Kernel::LimitPosition => step::limit_position(particles, before.colour_limits()),
         Kernel::QuadMidpoints => {
@@ -93,7 +94,7 @@ pub fn reference(kernel: Kernel, input: &mut Input) {
         }
         Kernel::TotalEnergy => input.status.kinetic_energy = frame::total_energy(&before.energy_partials),
         Kernel::LimitStatus => {
-            let status = frame::limit_status(&particles.positions, &before.limits);
+            let status = frame::limit_status(&particles.positions, &before.limits, settings.threshold);
             input.status.elongation_max = status.elongation_max.to_bits();
             input.status.over_long_count = status.over_long_count;
         }

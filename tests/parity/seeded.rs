@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3, Vec4, dvec3, vec3};
 use std::sync::OnceLock;
 use toile_gpu::Surface;
 use toile_kernels::{Domain, Kernel, TABLE};
-use toile_model::{Csr, Hold, Limit, Link, MapFrame, Model, NO_CORNER, SeamPair, StepSettings};
+use toile_model::{Attachment, Csr, Hold, Limit, Link, MapFrame, Model, NO_CORNER, SeamPair, StepSettings};
 use toile_reference::{Ball, Contact, Lag, Midpoints, Particles, Probe};
 use toile_scene::{Displacement, Friction, Influence, Morphs, Pose, Skin, Wind};
 use toile_workspace::{Layers, Random, box_mesh, gpu, settings, uv_sphere};
@@ -72,6 +72,7 @@ pub fn input(kernel: Kernel, items: u32, variant: Variant) -> Input {
         quad_winds: (0..counts.quads).map(|_| random.vector(0.02)).collect(),
         forces: (0..counts.particles).map(|i| force(random, i, &contacts[i as usize])).collect(),
         links: links(random, counts.particles),
+        attachments: attachments(random, &particles),
         limits,
         seam_pairs,
         span,
@@ -126,6 +127,8 @@ fn step_settings(variant: Variant) -> StepSettings {
         damping: 0.7,
         wind: Some(Wind { velocity: WIND, drag: 1.1, lift: 0.6 }),
         push_speed: 1.5,
+        sweeps: 1,
+        threshold: 0.05,
         contact_margin: 1e-3,
         friction: 0.8,
         hold_rate: 10.0,
@@ -207,6 +210,20 @@ fn links(random: &mut Random, particles: u32) -> Csr<Link> {
     }))
 }
 
+/// Distances from other particles, a little more or less than they are.
+fn attachments(random: &mut Random, particles: &Particles) -> Csr<Attachment> {
+    let count = particles.positions.len() as u32;
+    Csr::from_rows((0..count).map(|i| {
+        let attachment = |random: &mut Random| {
+            let pin = random.below(count);
+            let distance = particles.positions[i as usize].distance(particles.positions[pin as usize]);
+            let max_length = if distance > 0.0 { distance * random.between(0.9, 1.2) } else { 0.1 };
+            Attachment { pin, max_length }
+        };
+        (0..random.below(4)).map(|_| attachment(random)).collect::<Vec<_>>()
+    }))
+}
+
 /// Disjoint pairs as limits and as seam pairs, with others before and after the span of the colour.
 fn pairs(
     random: &mut Random,
@@ -232,7 +249,11 @@ fn pairs(
         };
         let [a, b] = ends.map(|end| particles.positions[end as usize]);
         let distance = (b - a).length();
-        let rest_length = if distance > 0.0 { distance * random.between(0.7, 1.3) } else { 0.1 };
+        let rest_length = match k % 9 {
+            5 if distance > 0.0 => distance,
+            _ if distance > 0.0 => distance * random.between(0.7, 1.3),
+            _ => 0.1,
+        };
         let max_length = match k % 9 {
             // Exactly as long as it may be.
             4 if distance > 0.0 => distance,

@@ -5,7 +5,8 @@ use toile_model::{Model, StepSettings};
 use toile_scene::{Body, Cloth, Friction, Rule, Scene, Sphere, Wind};
 use toile_workspace::{Layers, finish_frame, first_difference, gpu, scene, uv_sphere, vec3_words};
 
-const RULES: [Rule; 6] = [Rule::None, Rule::Zero, Rule::Average, Rule::Directional, Rule::Position, Rule::Predictive];
+const RULES: [Rule; 7] =
+    [Rule::None, Rule::Zero, Rule::Average, Rule::Directional, Rule::Position, Rule::Predictive, Rule::Hierarchical];
 
 fn sheet_model(scene: &Scene) -> Model {
     let Cloth::Sheet(sheet) = &scene.cloths[0] else { panic!("{} has a sheet", scene.name) };

@@ -6,7 +6,8 @@ use toile_model::{Model, StepSettings};
 use toile_scene::{Cloth, Pin, Rule, Scene, Settings, Sheet};
 use toile_workspace::{Random, advance, gpu, scene, sheet_settings};
 
-const RULES: [Rule; 6] = [Rule::None, Rule::Zero, Rule::Average, Rule::Directional, Rule::Position, Rule::Predictive];
+const RULES: [Rule; 7] =
+    [Rule::None, Rule::Zero, Rule::Average, Rule::Directional, Rule::Position, Rule::Predictive, Rule::Hierarchical];
 
 fn sheet(columns: u32, pins: Vec<Pin>) -> Sheet {
     Sheet {
@@ -36,7 +37,7 @@ fn simulate(model: &Model, settings: &StepSettings) -> Simulation {
 /// velocities only along springs that are over-long, and in free fall none is.
 #[test]
 fn a_free_sheet_falls_as_symplectic_euler_says() {
-    for rule in [Rule::None, Rule::Average, Rule::Predictive] {
+    for rule in [Rule::None, Rule::Average, Rule::Predictive, Rule::Hierarchical] {
         let settings = settings(rule, 0.0);
         let model = Model::from_sheet(&sheet(9, Vec::new()), &settings);
         let step = StepSettings::new(&settings, &model);
@@ -86,7 +87,7 @@ fn drift(rule: Rule) -> [f64; 2] {
 
 #[test]
 fn springs_and_limits_keep_the_momentum() {
-    for rule in [Rule::None, Rule::Average, Rule::Predictive, Rule::Position] {
+    for rule in [Rule::None, Rule::Average, Rule::Predictive, Rule::Position, Rule::Hierarchical] {
         let [centre, particle] = drift(rule);
         assert!(particle > 1e-3, "{rule:?}: the sheet moves, {particle} m");
         assert!(centre < 2e-5 * particle, "{rule:?}: the centre of mass moves {centre} m of {particle} m");

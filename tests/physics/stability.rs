@@ -2,7 +2,7 @@
 
 use toile::{Error, Simulation};
 use toile_model::{Model, StepSettings};
-use toile_scene::{Cloth, Rule};
+use toile_scene::{Cloth, Rule, VelocityModification};
 use toile_workspace::{advance, gpu, scene};
 
 const FRAMES: u32 = 120;
@@ -20,7 +20,7 @@ struct Run {
 
 fn hang(n: u32, rule: Rule) -> Run {
     let mut hang = scene("hang", &[("n", &n.to_string())]);
-    hang.settings.velocity_modification.rule = rule;
+    hang.settings.velocity_modification = VelocityModification::new(rule);
     let Cloth::Sheet(sheet) = &hang.cloths[0] else { panic!("hang has a sheet") };
     let model = Model::from_sheet(sheet, &hang.settings);
     let settings = StepSettings::new(&hang.settings, &model);
@@ -48,6 +48,17 @@ fn no_rule_and_the_predictive_rule_stay_bounded() {
     let held = hang(32, Rule::Predictive);
     assert!(held.end.is_ok() && held.speed_max < FASTEST, "{} m/s", held.speed_max);
     assert!(held.elongation_max < 0.5 * free.elongation_max, "{} and {}", held.elongation_max, free.elongation_max);
+}
+
+/// The threshold is 5 %, at every moment of the swing and at every size.
+#[test]
+fn hierarchical_limits_hold_the_threshold_at_any_resolution() {
+    for n in [17, 48] {
+        let run = hang(n, Rule::Hierarchical);
+        assert!(run.end.is_ok() && run.speed_max < FASTEST, "{n}: {} m/s", run.speed_max);
+        assert!(run.elongation_max < 0.07, "{n}: {}", run.elongation_max);
+        assert!(run.simulation.settings().steps_per_frame <= 16, "{n}");
+    }
 }
 
 /// Applied colour after colour the papers' rules flutter, and Provot's leaves the velocities that it does not let act.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 use toile_files::{BodyOptions, read_body, read_garment, read_scene};
-use toile_scene::{Fabric, Garment, Mesh, Scene, Settings, VelocityModification};
+use toile_scene::{Fabric, Garment, Mesh, Scene, Settings};
 
 /// Names of the scenes in `fixtures/scenes`.
 pub const SCENES: [&str; 3] = ["hang", "ball", "moving-ball"];
@@ -33,11 +33,10 @@ pub fn body() -> Mesh {
     read_body(&fixture("bodies/walking_woman.glb"), &options).unwrap_or_else(|error| panic!("{error}")).mesh
 }
 
-/// Settings of a garment in cotton at a spacing [m], as the program dresses it: predictive rule, two sweeps, Coulomb friction.
+/// Settings of a garment in cotton at a spacing [m], as the program dresses it.
 pub fn settings(spacing: f64) -> Settings {
     let default = Settings::new(Fabric::preset("cotton").expect("cotton is a preset"));
-    let velocity_modification = VelocityModification { sweeps: 2, ..default.velocity_modification };
-    Settings { spacing, velocity_modification, ..default }
+    Settings { spacing, ..default }
 }
 
 /// Settings of the sheets of `fixtures/scenes`.

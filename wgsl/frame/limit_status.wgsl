@@ -1,7 +1,8 @@
-// The largest elongation, and how many limits are exceeded.
+// The largest elongation, and how many structural and shear springs are over-long.
 #import shared/item
 #import shared/status
 #import shared/limit
+#import shared/step_params
 
 @group(0) @binding(2) var<storage, read> limits: array<Limit>;
 @group(0) @binding(3) var<storage, read> positions: array<vec4<f32>>;
@@ -10,7 +11,7 @@
 @compute @workgroup_size(64)
 fn limit_status(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
     let i = item_index(id, groups);
-    if i >= arrayLength(&limits) {
+    if i >= step.limit_count {
         return;
     }
     let limit = limits[i];
@@ -19,7 +20,7 @@ fn limit_status(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workg
     if elongation > 0.0 {
         atomicMax(&status.elongation_max, bitcast<u32>(elongation));
     }
-    if current_length > limit.max_length {
+    if elongation > step.threshold {
         atomicAdd(&status.over_long_count, 1u);
     }
 }

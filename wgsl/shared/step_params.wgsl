@@ -18,6 +18,8 @@ struct StepParams {
     wind: vec3<f32>,            // velocity of the air [m/s]
     drag: f32,                  // drag coefficient of a plate across the wind
     lift: f32,                  // lift coefficient
+    threshold: f32,             // elongation that counts as over-long
+    limit_count: u32,           // structural and shear springs, whose limits are the first
 }
 
 const COULOMB: u32 = 0u;

@@ -120,8 +120,9 @@ fn settings(toml: &SceneToml, folder: &Path) -> Result<Settings, Problem> {
         RuleToml::Directional => Rule::Directional,
         RuleToml::Position => Rule::Position,
         RuleToml::Predictive => Rule::Predictive,
+        RuleToml::Hierarchical => Rule::Hierarchical,
     });
-    let sweeps = toml.sweeps.unwrap_or(default.velocity_modification.sweeps);
+    let sweeps = toml.sweeps.unwrap_or(VelocityModification::new(rule).sweeps);
     if sweeps == 0 {
         return Err(wrong("sweeps", "it must be at least 1; rule = \"none\" turns it off").into());
     }

@@ -40,6 +40,7 @@ pub(crate) enum RuleToml {
     Directional,
     Position,
     Predictive,
+    Hierarchical,
 }
 
 /// `"coulomb"`, or `{ papers = { velocity_kept = …, force_removed = … } }`.

@@ -149,7 +149,12 @@ fn contents(name: &str, model: &Model, settings: &StepSettings) -> Contents {
                 rest_length: l.rest_length,
                 max_length: l.max_length,
             };
-            array(model.limits.iter().map(limit).collect())
+            array(model.limits.iter().chain(&model.long_limits).map(limit).collect())
+        }
+        "attachment_offsets" => words(&model.attachments.offsets),
+        "attachments" => {
+            let attachment = |a: &toile_model::Attachment| structs::Attachment { pin: a.pin, max_length: a.max_length };
+            array(model.attachments.values.iter().map(attachment).collect())
         }
         "seam_pairs" => {
             let pair = |s: &toile_model::SeamPair| structs::SeamPair {
@@ -192,7 +197,7 @@ fn step_params(model: &Model, settings: &StepSettings) -> structs::StepParams {
         gravity: settings.gravity,
         dt: settings.dt,
         damping: settings.damping,
-        push_speed: settings.push_speed,
+        push_speed: settings.push_speed_per_sweep(),
         contact_margin: settings.contact_margin,
         reflection: settings.reflection,
         friction_law,
@@ -207,13 +212,17 @@ fn step_params(model: &Model, settings: &StepSettings) -> structs::StepParams {
         wind: wind.velocity.as_vec3(),
         drag: wind.drag as f32,
         lift: wind.lift as f32,
+        threshold: settings.threshold,
+        limit_count: model.limits.len() as u32,
     }
 }
 
-/// The spans of the limit colours, then those of the seam colours.
+/// The spans of the limit colours, of the long limits, then those of the seam colours.
 fn spans(model: &Model) -> Vec<u8> {
     let mut bytes = Vec::new();
-    for colour in model.limit_colours.iter().chain(&model.seam_colours) {
+    let first = model.limits.len() as u32;
+    let long = model.long_limit_colours.iter().map(|colour| first + colour.start..first + colour.end);
+    for colour in model.limit_colours.iter().cloned().chain(long).chain(model.seam_colours.iter().cloned()) {
         let span = structs::Span { first: colour.start, count: colour.end - colour.start };
         bytes.extend(uniform_bytes(&span));
         bytes.resize(bytes.len().next_multiple_of(MOVING_UNIFORM_STRIDE as usize), 0);

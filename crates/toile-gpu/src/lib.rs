@@ -18,7 +18,7 @@ mod trail;
 pub use error::GpuError;
 pub use maps::{BodyMaps, Surface};
 pub use moving_body::MovingBody;
-pub use plan::{Pass, Plan};
+pub use plan::{KernelRuns, Pass, Plan, kernel_runs};
 pub use program::Program;
 pub use solver::{Colliders, Solver};
 pub use timing::{PassTime, Timer};

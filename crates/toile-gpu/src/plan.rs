@@ -29,6 +29,37 @@ pub struct Pass {
     pub colour: Option<u32>,
 }
 
+/// What one kernel does in a step or at the end of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct KernelRuns {
+    /// The kernel.
+    pub kernel: Kernel,
+    /// How often its turn comes.
+    pub runs: usize,
+    /// Dispatches in all.
+    pub dispatches: usize,
+    /// Items in all dispatches.
+    pub items: u64,
+}
+
+/// The kernels of some passes in order of first use: those of a sweep come again and again, but are told once.
+pub fn kernel_runs(passes: &[Pass]) -> Vec<KernelRuns> {
+    let mut kernels: Vec<KernelRuns> = Vec::new();
+    for run in passes.chunk_by(|a, b| a.kernel == b.kernel) {
+        let items: u64 = run.iter().map(|pass| u64::from(pass.items.end - pass.items.start)).sum();
+        let kernel = run[0].kernel;
+        match kernels.iter_mut().find(|known| known.kernel == kernel) {
+            Some(known) => {
+                known.runs += 1;
+                known.dispatches += run.len();
+                known.items += items;
+            }
+            None => kernels.push(KernelRuns { kernel, runs: 1, dispatches: run.len(), items }),
+        }
+    }
+    kernels
+}
+
 impl Plan {
     /// The plan of a model.
     pub fn new(model: &Model, needs: &Needs, sweeps: u32) -> Self {
@@ -85,7 +116,8 @@ fn holds(need: Need, needs: &Needs) -> bool {
         Need::RuleZero => needs.rule == Rule::Zero,
         Need::RuleAverage => needs.rule == Rule::Average,
         Need::RuleDirectional => needs.rule == Rule::Directional,
-        Need::RulePredictive => needs.rule == Rule::Predictive,
+        Need::RulePredictive => matches!(needs.rule, Rule::Predictive | Rule::Hierarchical),
+        Need::Attachments => needs.attachments,
         Need::RulePosition => needs.rule == Rule::Position,
     }
 }
@@ -102,7 +134,7 @@ fn passes(row: &Row, model: &Model) -> Vec<Pass> {
         Domain::Point => all(model.particle_count() + model.quad_count()),
         Domain::Hold => all(WORKGROUP_SIZE * model.holds.len() as u32),
         Domain::Limit => all(model.limits.len() as u32),
-        Domain::LimitColour => coloured(&model.limit_colours),
+        Domain::LimitColour => limit_passes(row, model),
         Domain::SeamPair => all(model.seam_pair_count()),
         Domain::SeamColour => coloured(&model.seam_colours),
         Domain::Workgroup => all(WORKGROUP_SIZE),
@@ -110,14 +142,28 @@ fn passes(row: &Row, model: &Model) -> Vec<Pass> {
     }
 }
 
+/// The colours of the long limits, then those of single springs, which under the hierarchical rule come twice: long limits leave
+/// kinks that the second time smooths.
+fn limit_passes(row: &Row, model: &Model) -> Vec<Pass> {
+    let pass = |(items, colour): (Range<u32>, u32)| Pass { kernel: row.kernel, items, colour: Some(colour) };
+    let short: Vec<_> = model.limit_colours.iter().cloned().zip(0..).map(pass).collect();
+    let first = model.limits.len() as u32;
+    let shifted = model.long_limit_colours.iter().map(|colour| first + colour.start..first + colour.end);
+    let mut passes: Vec<_> = shifted.zip(model.colour_count()..).map(pass).collect();
+    if !passes.is_empty() {
+        passes.extend(short.clone());
+    }
+    passes.extend(short);
+    passes
+}
+
 impl fmt::Display for Plan {
-    /// One line for each run of dispatches of the same kernel.
+    /// One line for each kernel.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (title, passes) in [("step", &self.step), ("frame", &self.frame)] {
             writeln!(f, "{title}: {} dispatches", passes.len())?;
-            for run in passes.chunk_by(|a, b| a.kernel == b.kernel) {
-                let items: u32 = run.iter().map(|pass| pass.items.end - pass.items.start).sum();
-                writeln!(f, "  {:<18} {:>3} × {items} items", run[0].kernel.name(), run.len())?;
+            for KernelRuns { kernel, runs, dispatches, items } in kernel_runs(passes) {
+                writeln!(f, "  {:<18} {runs} runs, {dispatches:>3} dispatches, {items} items", kernel.name())?;
             }
         }
         Ok(())

@@ -87,7 +87,7 @@ impl Solver {
             programs,
             sphere: colliders.sphere,
             sphere_after_maps: colliders.maps.is_some(),
-            limit_colour_count: model.colour_count(),
+            limit_colour_count: (model.limit_colours.len() + model.long_limit_colours.len()) as u32,
             particle_count: model.particle_count(),
             status: StatusReader::new(device),
             step: 0,

@@ -7,6 +7,7 @@ macro_rules! shared {
 }
 
 const SHARED: &[(&str, &str)] = &shared![
+    "attachment",
     "contact",
     "item",
     "limit",

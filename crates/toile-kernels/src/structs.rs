@@ -42,6 +42,10 @@ pub struct StepParams {
     pub drag: f32,
     /// Lift coefficient [1].
     pub lift: f32,
+    /// Elongation that counts as over-long [1].
+    pub threshold: f32,
+    /// Number of structural and shear springs, whose limits are the first.
+    pub limit_count: u32,
 }
 
 /// The part of an array that one dispatch works on. `wgsl/shared/span.wgsl`.
@@ -72,6 +76,15 @@ pub struct Limit {
     /// Rest length [m].
     pub rest_length: f32,
     /// Maximum length [m].
+    pub max_length: f32,
+}
+
+/// A maximum distance of a particle from a pin. `wgsl/shared/attachment.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct Attachment {
+    /// The pinned particle.
+    pub pin: u32,
+    /// Maximum distance [m].
     pub max_length: f32,
 }
 

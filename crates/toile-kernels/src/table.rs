@@ -9,7 +9,8 @@ pub enum Stage {
     Pose,
     /// Once per step.
     Step,
-    /// Once per sweep: consecutive rows of this stage are repeated together as often as the settings say.
+    /// Once per sweep: consecutive rows of this stage are repeated together as often as the settings say, so that limits, bodies and
+    /// seams take turns.
     Sweep,
     /// Once per frame, after its steps.
     Frame,
@@ -75,10 +76,12 @@ pub enum Need {
     RuleAverage,
     /// Limits under the rule Directional.
     RuleDirectional,
-    /// Limits under the rule Predictive.
+    /// Limits under the rules Predictive and Hierarchical.
     RulePredictive,
     /// Limits under the rule Position.
     RulePosition,
+    /// Pins under the rule Hierarchical.
+    Attachments,
 }
 
 /// One row of the kernel table.
@@ -154,18 +157,20 @@ kernels! {
     LimitAverage "step" "limit_average" Sweep LimitColour RuleAverage;
     /// W §3.2, eq. 6.
     LimitDirectional "step" "limit_directional" Sweep LimitColour RuleDirectional;
-    /// The default rule.
+    /// From pins outward, before the limits between neighbours.
+    LimitAttachments "step" "limit_attachments" Sweep Particle Attachments;
+    /// The default rule: on long limits first, then on those of single springs.
     LimitPredictive "step" "limit_predictive" Sweep LimitColour RulePredictive;
     /// Points of the quads that are tested. D §6.
-    QuadMidpoints "step" "quad_midpoints" Step Quad Body;
+    QuadMidpoints "step" "quad_midpoints" Sweep Quad Body;
     /// What points see in the maps of bodies at rest. W §4.4.
-    SampleMaps "step" "sample_maps" Step Point StillMaps;
+    SampleMaps "step" "sample_maps" Sweep Point StillMaps;
     /// What points see in the maps of moving bodies. W §4.3, §4.4.
-    SampleMovingMaps "step" "sample_moving_maps" Step Point MovingMaps;
+    SampleMovingMaps "step" "sample_moving_maps" Sweep Point MovingMaps;
     /// What points see of the sphere.
-    SampleSphere "step" "sample_sphere" Step Point Sphere;
+    SampleSphere "step" "sample_sphere" Sweep Point Sphere;
     /// Each particle answers its own contact and those of its quads. D §6, W eq. 15.
-    Collide "step" "collide" Step Particle Body;
+    Collide "step" "collide" Sweep Particle Body;
     /// Seams close at a set speed; last of all, so that a seam that a tight fit holds open closes all the same.
     CloseSeams "step" "close_seams" Sweep SeamColour Seams;
     /// Positions move last. W eq. 3.

@@ -4,6 +4,10 @@ use crate::colouring::{Pair, sort_by_colour};
 use crate::geometry::corners;
 use crate::soften::soften;
 use crate::{Csr, Limit, Link, Model, Spring, SpringKind};
+use toile_scene::Rule;
+
+/// Part of the threshold that hierarchical limits hold [1]. Sweeps end before they converge; what is left goes on top.
+const AIM: f32 = 0.9;
 
 impl Model {
     /// Fills what follows from springs, seam pairs and quads.
@@ -15,16 +19,15 @@ impl Model {
         }
         let limited = || self.springs.iter().filter(|s| matches!(s.kind, SpringKind::Structural | SpringKind::Shear));
         let mut limits: Vec<Limit> = limited()
-            .map(|s| Limit {
-                ends: s.ends,
-                rest_length: s.rest_length,
-                max_length: (1.0 + self.threshold) * s.rest_length,
-            })
+            .map(|s| Limit { ends: s.ends, rest_length: s.rest_length, max_length: self.stretch() * s.rest_length })
             .collect();
         let above = self.above();
         let pairs: Vec<Pair> = limited().map(|s| Pair { ends: s.ends, family: family(s, &above) }).collect();
         self.limit_colours = sort_by_colour(&mut limits, &pairs, count);
         self.limits = limits;
+        if self.attachments.row_count() == 0 {
+            self.attachments = Csr::from_rows((0..count).map(|_| []));
+        }
         let pairs: Vec<Pair> = self.seam_pairs.iter().map(|p| Pair { ends: p.ends, family: None }).collect();
         self.seam_colours = sort_by_colour(&mut self.seam_pairs, &pairs, count);
         let mut rows = vec![Vec::new(); count];
@@ -35,6 +38,12 @@ impl Model {
         }
         self.particle_quads = Csr::from_rows(rows);
         self
+    }
+
+    /// Maximum length of a limit as part of its rest length [1].
+    pub(crate) fn stretch(&self) -> f32 {
+        let aim = if self.rule == Rule::Hierarchical { AIM } else { 1.0 };
+        1.0 + aim * self.threshold
     }
 
     /// For each particle its neighbour in the next row: particles are numbered row by row.

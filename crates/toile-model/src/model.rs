@@ -3,6 +3,7 @@
 use crate::Csr;
 use glam::{Vec2, Vec3};
 use std::ops::Range;
+use toile_scene::Rule;
 
 /// Fourth corner of a quad that is a triangle.
 pub const NO_CORNER: u32 = u32::MAX;
@@ -26,6 +27,13 @@ pub struct Model {
     pub limits: Vec<Limit>,
     /// Limits of each colour: no two of them share a particle.
     pub limit_colours: Vec<Range<u32>>,
+    /// Limits between particles that are 2, 4, 8… cells apart, sorted by level, the longest first, and inside a level by colour.
+    /// Empty unless the rule is [`Rule::Hierarchical`].
+    pub long_limits: Vec<Limit>,
+    /// Long limits of each colour: no two of them share a particle, all are of one level.
+    pub long_limit_colours: Vec<Range<u32>>,
+    /// For each particle the pins that hold it; shape [particle_count] rows. Empty rows unless the rule is [`Rule::Hierarchical`].
+    pub attachments: Csr<Attachment>,
     /// Particles that a seam pulls together, sorted by colour. Empty once merged.
     pub seam_pairs: Vec<SeamPair>,
     /// Seam pairs of each colour: no two of them share a particle.
@@ -42,6 +50,8 @@ pub struct Model {
     pub stiffness: [f32; 3],
     /// Elongation that the limits allow [1].
     pub threshold: f32,
+    /// The rule that the limits are made for.
+    pub rule: Rule,
     /// Longest step [s] that the links are made soft enough for; `None` when they keep the stiffness of the springs.
     pub step_wanted: Option<f64>,
     /// What each panel became.
@@ -87,14 +97,24 @@ pub struct Link {
     pub stiffness: f32,
 }
 
-/// A unilateral maximum length: structural and shear springs have one, shortening is free.
+/// A unilateral maximum length: shortening is free.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit {
     /// The two particles.
     pub ends: [u32; 2],
     /// Rest length of the spring [m].
     pub rest_length: f32,
-    /// Maximum length (1 + threshold)·rest length [m].
+    /// Maximum length [m]: (1 + threshold)·rest length; under [`Rule::Hierarchical`] a little less, so that what the sweeps leave
+    /// of the excess stays under the threshold.
+    pub max_length: f32,
+}
+
+/// A maximum distance of a particle from a pin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Attachment {
+    /// The pinned particle.
+    pub pin: u32,
+    /// Maximum distance [m]: as [`Limit::max_length`], of the distance inside the flat panel.
     pub max_length: f32,
 }
 

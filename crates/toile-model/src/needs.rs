@@ -31,20 +31,24 @@ pub struct Needs {
     pub rule: Rule,
     /// Springs whose elongation is reported.
     pub limits: bool,
+    /// Pins that hold particles farther away.
+    pub attachments: bool,
 }
 
 impl Needs {
     /// What this model needs, with or without maps and sphere.
     pub fn new(model: &Model, settings: &StepSettings, maps: Maps, sphere: bool) -> Self {
         let limits = !model.limits.is_empty();
+        let rule = if limits && settings.sweeps > 0 { settings.rule } else { Rule::None };
         Self {
             wind: settings.wind.is_some(),
             maps,
             sphere,
             holds: !model.holds.is_empty() && settings.hold_rate > 0.0,
             seams: !model.seam_pairs.is_empty(),
-            rule: if limits && settings.sweeps > 0 { settings.rule } else { Rule::None },
+            rule,
             limits,
+            attachments: rule == Rule::Hierarchical && !model.attachments.values.is_empty(),
         }
     }
 

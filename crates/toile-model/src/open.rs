@@ -2,14 +2,16 @@
 
 use crate::flat_mesh::FlatMesh;
 use crate::geometry::{angle_range, corners, element_area, signed_area};
+use crate::long_limits::{attachments, long_limits};
 use crate::outline::outlines;
 use crate::seams::seam_pairs;
 use crate::soften::step_wanted;
 use crate::springs::{Role, panel_springs};
+use crate::union_find::UnionFind;
 use crate::{Hold, Model, ModelError, PanelMesh, Spring, SpringKind, rectangle, rim};
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
-use toile_scene::{Garment, Settings, Sheet};
+use toile_scene::{Garment, Rule, Settings, Sheet};
 
 /// Largest particle count of a garment: four times the 1024² grid that the step is made for.
 const PARTICLE_LIMIT: u64 = 4_000_000;
@@ -34,7 +36,7 @@ impl Model {
             .flat_map(|r| (0..columns - 1).map(move |c| r * columns + c))
             .map(|first| [first, first + 1, first + columns + 1, first + columns])
             .collect();
-        let mut model = Self::from_flat(flat, &places, quads, settings);
+        let mut model = Self::from_flat(&flat, &places, quads, settings);
         for pin in &sheet.pins {
             assert!(pin.column < columns && pin.row < rows, "the pins of a sheet are particles of it");
             model.inverse_masses[(pin.row * columns + pin.column) as usize] = 0.0;
@@ -45,6 +47,10 @@ impl Model {
             quads: 0..model.quad_count(),
             worst_angle: 90.0,
         }];
+        model.add_long_limits(&flat);
+        if model.rule == Rule::Hierarchical {
+            model.attachments = attachments(&flat, &model.inverse_masses, &pin_groups(sheet), model.stretch());
+        }
         model.complete()
     }
 
@@ -83,8 +89,9 @@ impl Model {
                 worst_angle: mesh.worst_angle() as f32,
             });
         }
-        let mut model = Self::from_flat(flat, &places, quads, settings);
+        let mut model = Self::from_flat(&flat, &places, quads, settings);
         model.panels = panels;
+        model.add_long_limits(&flat);
         (model.holds, model.held_particles) = holds(garment, &edge_particles, &places);
         (model.seam_pairs, model.seam_names) = seam_pairs(garment, &edge_particles, &model.positions);
         let stiffness = SEAM_STIFFNESS * settings.fabric.structural_stiffness as f32;
@@ -100,12 +107,12 @@ impl Model {
     }
 
     /// Particles, masses and springs of flat meshes.
-    fn from_flat(flat: Vec<DVec2>, places: &[DVec3], quads: Vec<[u32; 4]>, settings: &Settings) -> Self {
+    fn from_flat(flat: &[DVec2], places: &[DVec3], quads: Vec<[u32; 4]>, settings: &Settings) -> Self {
         let fabric = &settings.fabric;
         let mut masses = vec![0.0; flat.len()];
         for quad in &quads {
             let loop_ = corners(quad);
-            let share = fabric.areal_density * element_area(quad, &flat).abs() / loop_.len() as f64;
+            let share = fabric.areal_density * element_area(quad, flat).abs() / loop_.len() as f64;
             loop_.iter().for_each(|&i| masses[i as usize] += share);
         }
         let stiffness = [fabric.structural_stiffness, fabric.shear_stiffness, fabric.bend_stiffness].map(|k| k as f32);
@@ -119,15 +126,43 @@ impl Model {
             positions: places.iter().map(|p| p.as_vec3()).collect(),
             masses: masses.iter().map(|&m| m as f32).collect(),
             inverse_masses: masses.iter().map(|&m| (1.0 / m) as f32).collect(),
-            springs: panel_springs(&quads, &flat).into_iter().map(spring).collect(),
+            springs: panel_springs(&quads, flat).into_iter().map(spring).collect(),
             flat: flat.iter().map(|p| p.as_vec2()).collect(),
             quads,
             stiffness,
             threshold: fabric.threshold as f32,
+            rule: settings.velocity_modification.rule,
             step_wanted: step_wanted(settings),
             ..Self::default()
         }
     }
+
+    /// Long limits of panels that are not sewn.
+    fn add_long_limits(&mut self, flat: &[DVec2]) {
+        if self.rule == Rule::Hierarchical {
+            let member_of: Vec<u32> = (0..flat.len() as u32).collect();
+            let cloth = self.cloth(flat, &member_of, flat.len());
+            let (limits, colours) = long_limits(&cloth, self.stretch());
+            (self.long_limits, self.long_limit_colours) = (limits, colours);
+        }
+    }
+}
+
+/// The pins of a sheet, those next to each other together.
+fn pin_groups(sheet: &Sheet) -> Vec<Vec<u32>> {
+    let mut groups = UnionFind::new(sheet.pins.len());
+    for (i, one) in sheet.pins.iter().enumerate() {
+        for (j, other) in sheet.pins.iter().enumerate().skip(i + 1) {
+            if one.column.abs_diff(other.column) <= 1 && one.row.abs_diff(other.row) <= 1 {
+                groups.unite(i as u32, j as u32);
+            }
+        }
+    }
+    let mut members: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    for (i, pin) in sheet.pins.iter().enumerate() {
+        members.entry(groups.root(i as u32)).or_default().push(pin.row * sheet.columns + pin.column);
+    }
+    members.into_values().collect()
 }
 
 /// An element of a panel among all particles, counter-clockwise seen from outside: outside of a clockwise panel is its back.

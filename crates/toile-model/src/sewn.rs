@@ -4,10 +4,13 @@ use crate::elements::{Side, sectors, sides};
 use crate::fan::opposite_neighbours;
 use crate::flat_mesh::smallest_first;
 use crate::geometry::corners;
+use crate::long_limits::long_limits;
+use crate::strands::Cloth;
 use crate::union_find::UnionFind;
 use crate::{Csr, Hold, Merge, Model, PanelMesh, Spring, SpringKind};
 use glam::{DVec2, DVec3};
 use std::collections::BTreeSet;
+use toile_scene::Rule;
 
 impl Model {
     /// The model with the particles of each seam pair made one, and which particles of this model each of them was.
@@ -20,6 +23,7 @@ impl Model {
         let count = merge.members.row_count();
         let mut model = Self {
             threshold: self.threshold,
+            rule: self.rule,
             stiffness: self.stiffness,
             step_wanted: self.step_wanted,
             ..Self::default()
@@ -40,6 +44,11 @@ impl Model {
         model.springs = self.sewn_springs(&member_of, &merge);
         (model.holds, model.held_particles) = self.sewn_holds(&member_of);
         (model.quads, model.panels) = self.sewn_quads(&member_of);
+        if self.rule == Rule::Hierarchical {
+            let flat: Vec<DVec2> = self.flat.iter().map(|p| p.as_dvec2()).collect();
+            let cloth = self.cloth(&flat, &member_of, count);
+            (model.long_limits, model.long_limit_colours) = long_limits(&cloth, self.stretch());
+        }
         (model.complete(), merge)
     }
 
@@ -179,6 +188,12 @@ impl Model {
 }
 
 impl Model {
+    /// The flat panels of an open model, their particles as those of a cloth that they become.
+    pub(crate) fn cloth<'a>(&'a self, flat: &'a [DVec2], member_of: &'a [u32], particle_count: usize) -> Cloth<'a> {
+        let panels = self.panels.iter().zip(0..).flat_map(|(mesh, panel)| mesh.quads.clone().map(move |_| panel));
+        Cloth { elements: &self.quads, panels: panels.collect(), flat, member_of, particle_count }
+    }
+
     /// The holds with merged particles, each in the first hold that has it.
     fn sewn_holds(&self, member_of: &[u32]) -> (Vec<Hold>, Vec<u32>) {
         let mut taken = BTreeSet::new();

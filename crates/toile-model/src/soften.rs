@@ -12,11 +12,11 @@ const RATE_PER_STEP: f64 = 1.6;
 
 /// Longest step [s] that the links of a model must be stable at; `None` when they keep the stiffness of the fabric.
 ///
-/// What the limits carry, the springs need not: under the predictive rule a stiff fabric does not force more steps on a frame.
+/// What the limits carry, the springs need not: under the predictive rules a stiff fabric does not force more steps on a frame.
 /// What is lost is resistance to compression and bending where the particles are too light for it. The other rules leave
 /// the tension to the springs, so there the step follows the stiffness.
 pub(crate) fn step_wanted(settings: &Settings) -> Option<f64> {
-    (settings.velocity_modification.rule == Rule::Predictive).then_some(STEP_MIN)
+    matches!(settings.velocity_modification.rule, Rule::Predictive | Rule::Hierarchical).then_some(STEP_MIN)
 }
 
 /// Makes links softer where their particles are too light for a step [s]: with Gershgorin's bound ω² ≤ 2·Σk·w the largest

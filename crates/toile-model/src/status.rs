@@ -15,7 +15,7 @@ pub struct Status {
     pub kinetic_energy: f32,
     /// Largest elongation of a structural or shear spring [1]; 0 when none is longer than its rest length.
     pub elongation_max: f32,
-    /// Number of structural and shear springs longer than their limit.
+    /// Number of structural and shear springs whose elongation is above the threshold.
     pub over_long_count: u32,
     /// Largest distance between two particles of a seam pair [m]; 0 without open seams.
     pub seam_gap_max: f32,

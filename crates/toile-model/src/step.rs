@@ -72,6 +72,13 @@ impl StepSettings {
     }
 }
 
+impl StepSettings {
+    /// The part of [`Self::push_speed`] that each of the sweeps has [m/s].
+    pub fn push_speed_per_sweep(&self) -> f32 {
+        self.push_speed / self.sweeps.max(1) as f32
+    }
+}
+
 /// Largest step [s] at which symplectic Euler is surely stable on this model's springs: 2/ω with Gershgorin's bound
 /// ω² ≤ 2·Σk·w over the springs of a particle. Infinite without springs.
 fn stable_step(model: &Model) -> f64 {

@@ -3,6 +3,7 @@
 use crate::maps::BodyMaps;
 use crate::{Ball, Contact, Lag, Particles, Probe, digest, frame, step};
 use glam::Vec3;
+use std::ops::Range;
 use toile_model::{Merge, Model, Status, StepSettings};
 use toile_scene::{Rule, Sphere};
 
@@ -128,43 +129,55 @@ impl Reference {
         if settings.hold_rate > 0.0 {
             step::hold_edges(particles, &model.holds, &model.held_particles, settings);
         }
-        for _ in 0..settings.sweeps {
+        for _ in 0..self.settings.sweeps.max(1) {
             self.sweep_velocities();
-        }
-        if has_body {
-            self.collide(lag);
-        }
-        let Self { model, settings, particles, .. } = self;
-        for _ in 0..settings.sweeps {
+            if has_body {
+                self.collide(lag);
+            }
+            let Self { model, particles, .. } = self;
             for colour in &model.seam_colours {
-                let pairs = &model.seam_pairs[colour.start as usize..colour.end as usize];
-                step::close_seams(particles, pairs, dt);
+                step::close_seams(particles, part(&model.seam_pairs, colour), dt);
             }
         }
+        let Self { model, settings, particles, .. } = self;
         step::move_particles(&mut particles.positions, &particles.velocities, dt);
         if settings.rule == Rule::Position {
             for _ in 0..settings.sweeps {
                 for colour in &model.limit_colours {
-                    let limits = &model.limits[colour.start as usize..colour.end as usize];
-                    step::limit_position(particles, limits);
+                    step::limit_position(particles, part(&model.limits, colour));
                 }
             }
         }
         self.step += 1;
     }
 
-    /// One sweep over all limits, colour by colour.
+    /// One sweep over all limits, colour by colour; under the hierarchical rule from pins outward and from long limits to short ones.
     fn sweep_velocities(&mut self) {
         let Self { model, settings, particles, contacts, .. } = self;
         let contacts = (!contacts.is_empty()).then_some(contacts.as_slice());
+        if settings.sweeps == 0 {
+            return;
+        }
+        if settings.rule == Rule::Hierarchical {
+            step::limit_attachments(particles, &model.attachments, settings.dt);
+            for colour in &model.long_limit_colours {
+                step::limit_predictive(particles, part(&model.long_limits, colour), settings.dt);
+            }
+            // Long limits leave kinks, so that the short ones come once more.
+            if !model.long_limits.is_empty() {
+                for colour in &model.limit_colours {
+                    step::limit_predictive(particles, part(&model.limits, colour), settings.dt);
+                }
+            }
+        }
         for colour in &model.limit_colours {
-            let limits = &model.limits[colour.start as usize..colour.end as usize];
+            let limits = part(&model.limits, colour);
             match settings.rule {
                 Rule::None | Rule::Position => {}
                 Rule::Zero => step::limit_zero(particles, limits),
                 Rule::Average => step::limit_average(particles, limits),
                 Rule::Directional => step::limit_directional(particles, limits, contacts, settings),
-                Rule::Predictive => step::limit_predictive(particles, limits, settings.dt),
+                Rule::Predictive | Rule::Hierarchical => step::limit_predictive(particles, limits, settings.dt),
             }
         }
     }
@@ -201,7 +214,7 @@ impl Reference {
     /// What the simulation reports of its state.
     pub fn status(&self) -> Status {
         let particles = frame::particle_status(&self.particles);
-        let limits = frame::limit_status(&self.particles.positions, &self.model.limits);
+        let limits = frame::limit_status(&self.particles.positions, &self.model.limits, self.settings.threshold);
         Status {
             step: self.step,
             non_finite_count: particles.non_finite_count,
@@ -243,4 +256,9 @@ impl Reference {
     pub fn digest(&self) -> String {
         digest::digest(&self.model, &self.status(), &self.particles.positions, &self.contacts)
     }
+}
+
+/// The items of a colour.
+fn part<'a, T>(items: &'a [T], colour: &Range<u32>) -> &'a [T] {
+    &items[colour.start as usize..colour.end as usize]
 }

@@ -32,12 +32,12 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// The default settings for a fabric: one predictive sweep, Coulomb friction, particles at 1 cm, texels of 0.5 cm (D eq. 11),
+    /// The default settings for a fabric: four sweeps of hierarchical limits, Coulomb friction, particles at 1 cm, texels of 0.5 cm (D eq. 11),
     /// 60 frames per second.
     pub fn new(fabric: Fabric) -> Self {
         Self {
             fabric,
-            velocity_modification: VelocityModification { rule: Rule::Predictive, sweeps: 1 },
+            velocity_modification: VelocityModification::new(Rule::Hierarchical),
             friction: Friction::Coulomb,
             reflection: 0.0,
             gravity: DVec3::new(0.0, -9.81, 0.0),
@@ -86,14 +86,22 @@ impl Wind {
 pub struct VelocityModification {
     /// Which rule.
     pub rule: Rule,
-    /// How often the rule goes over all limits in one step.
+    /// How often the rule goes over all limits in one step; after each time the cloth answers the bodies.
     pub sweeps: u32,
 }
 
+impl VelocityModification {
+    /// A rule with the sweeps that it is made for: four of hierarchical limits, one of all others.
+    pub fn new(rule: Rule) -> Self {
+        Self { rule, sweeps: if rule == Rule::Hierarchical { 4 } else { 1 } }
+    }
+}
+
 /// How the ends of an over-long spring change.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Rule {
     /// Not at all.
+    #[default]
     None,
     /// Both axial velocities become zero. D §4.3.
     Zero,
@@ -105,6 +113,9 @@ pub enum Rule {
     Position,
     /// The part of the velocities that would make the spring over-long after the coming move is removed.
     Predictive,
+    /// The same, and before it on limits that span 2, 4, 8… cells, the longest first, so that a sweep reaches far; and where the cloth
+    /// has pins, from each of them outward.
+    Hierarchical,
 }
 
 /// How the cloth slides on a body.

@@ -1,7 +1,7 @@
 //! A mesh that bends with joints.
 
 use crate::Mesh;
-use glam::{DMat4, DVec3, DVec4, Vec3, Vec4};
+use glam::{DMat4, DVec3, Vec3, Vec4};
 
 /// How the vertices of a mesh hang on joints. A rigid body is a skin with one joint.
 ///
@@ -135,7 +135,7 @@ pub fn normal_before(matrix: DMat4, turned: DVec3) -> DVec3 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Displacement, Influence, Morphs, Pose, Skin, normal_before, turned_normal};
+    use super::{Displacement, Influence, Morphs, Skin, normal_before, turned_normal};
     use glam::{DMat4, DQuat, DVec3, Vec3, dvec3, vec3};
 
     #[test]

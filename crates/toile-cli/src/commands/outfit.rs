@@ -4,7 +4,7 @@ use crate::args::Outfit;
 use anyhow::{Context, Result};
 use std::path::Path;
 use toile::files::{self, BodyOptions, SceneFile};
-use toile::scene::{Body, Cloth, Fabric, Garment, MovingMesh, Scene, Settings, VelocityModification};
+use toile::scene::{Body, Cloth, Fabric, Garment, MovingMesh, Scene, Settings};
 
 /// The built-in body and the pose it is dressed in.
 const BODY: &[u8] = include_bytes!("../../../../fixtures/bodies/walking_woman.glb");
@@ -12,8 +12,6 @@ const BODY_NAME: &str = "walking_woman.glb";
 const BODY_CLIP: &str = "apose_to_walk";
 /// The built-in garment.
 const GARMENT: &str = include_str!("../../../../fixtures/garments/dress.json");
-/// A garment is pulled at by gravity, seams and body at once: one sweep leaves more of the stretch.
-const SWEEPS: u32 = 4;
 
 /// Reads the outfit as a scene. It runs until the garments are at rest, so it has no frames.
 pub fn read(outfit: &Outfit) -> Result<SceneFile> {
@@ -58,12 +56,7 @@ pub fn read_garments(outfit: &Outfit) -> Result<Vec<Garment>> {
 /// How the outfit is simulated.
 pub fn settings(outfit: &Outfit) -> Result<Settings> {
     let default = Settings::new(fabric(&outfit.fabric)?);
-    Ok(Settings {
-        velocity_modification: VelocityModification { sweeps: SWEEPS, ..default.velocity_modification },
-        spacing: outfit.spacing,
-        texel: outfit.texel,
-        ..default
-    })
+    Ok(Settings { spacing: outfit.spacing, texel: outfit.texel, ..default })
 }
 
 fn options(outfit: &Outfit) -> BodyOptions {

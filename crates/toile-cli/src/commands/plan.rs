@@ -9,7 +9,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
 use toile::files::read_scene;
-use toile::gpu::{BodyMaps, Pass, Plan};
+use toile::gpu::{BodyMaps, Kernel, KernelRuns, Pass, Plan, kernel_runs};
 use toile::model::{MapFrame, Maps, Model, Needs, StepSettings};
 use toile::scene::{Body, Cloth, Scene};
 
@@ -47,12 +47,14 @@ struct ClothPlan {
     map_bytes: u64,
 }
 
-/// All dispatches of a kernel in a row.
+/// All dispatches of a kernel.
 #[derive(Serialize)]
 struct KernelPlan {
     kernel: &'static str,
+    /// How often its turn comes.
+    runs: usize,
     dispatches: usize,
-    items: u32,
+    items: u64,
 }
 
 /// The plans of all cloths in the order of dressing; a garment has one for sewing and one for draping.
@@ -134,12 +136,13 @@ impl ClothPlan {
 }
 
 fn kernels(passes: &[Pass]) -> Vec<KernelPlan> {
-    let run = |run: &[Pass]| KernelPlan {
-        kernel: run[0].kernel.name(),
-        dispatches: run.len(),
-        items: run.iter().map(|pass| pass.items.end - pass.items.start).sum(),
+    let plan = |KernelRuns { kernel, runs, dispatches, items }| KernelPlan {
+        kernel: Kernel::name(kernel),
+        runs,
+        dispatches,
+        items,
     };
-    passes.chunk_by(|a, b| a.kernel == b.kernel).map(run).collect()
+    kernel_runs(passes).into_iter().map(plan).collect()
 }
 
 impl fmt::Display for ClothPlan {
@@ -153,8 +156,8 @@ impl fmt::Display for ClothPlan {
         for (title, kernels) in [("step", &self.step), ("frame", &self.frame)] {
             let dispatches: usize = kernels.iter().map(|kernel| kernel.dispatches).sum();
             writeln!(f, "  {title}: {dispatches} dispatches")?;
-            for KernelPlan { kernel, dispatches, items } in kernels {
-                writeln!(f, "    {kernel:<22} {dispatches:>4} × {items} items")?;
+            for KernelPlan { kernel, runs, dispatches, items } in kernels {
+                writeln!(f, "    {kernel:<22} {runs:>2} runs, {dispatches:>4} dispatches, {items} items")?;
             }
         }
         writeln!(f, "  buffers: {} bytes, {:.1} per particle", self.bytes, self.bytes_per_particle)?;

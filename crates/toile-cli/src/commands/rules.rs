@@ -15,15 +15,16 @@ use glam::DVec3;
 use serde::Serialize;
 use toile::files::{SceneFile, read_scene, write_atomically};
 use toile::model::{Model, Status, StepSettings};
-use toile::scene::{Cloth, Mesh, Rule, Sphere};
+use toile::scene::{Cloth, Mesh, Rule, Sphere, VelocityModification};
 
-const RULES: [(&str, Rule); 6] = [
+const RULES: [(&str, Rule); 7] = [
     ("none", Rule::None),
     ("zero", Rule::Zero),
     ("average", Rule::Average),
     ("directional", Rule::Directional),
     ("position", Rule::Position),
     ("predictive", Rule::Predictive),
+    ("hierarchical", Rule::Hierarchical),
 ];
 /// Height of the pictures [px].
 const PICTURE_HEIGHT: u32 = 480;
@@ -92,7 +93,7 @@ fn try_rule(
         bail!("scene {} has a mesh body: the rules are compared on a sheet alone or with a sphere", scene.name);
     }
     let mut settings = scene.settings.clone();
-    settings.velocity_modification.rule = rule;
+    settings.velocity_modification = VelocityModification::new(rule);
     let model = Model::from_sheet(sheet, &settings);
     let step = StepSettings::new(&settings, &model);
     let mut engine = computer.start(&model, &step, &[], sphere.clone(), settings.texel as f32)?;

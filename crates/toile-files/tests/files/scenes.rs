@@ -125,7 +125,7 @@ fn wrong_overrides_name_the_key_and_what_there_is() {
     hang.toml, key "n": it is 1 and must be 2 to 8192
     hang.toml, key "n": it is 100000 and must be 2 to 8192
     hang.toml, key "n": invalid type: string "many", expected u32
-    hang.toml, key "rule": unknown variant `strict`, expected one of `none`, `zero`, `average`, `directional`, `position`, `predictive`
+    hang.toml, key "rule": unknown variant `strict`, expected one of `none`, `zero`, `average`, `directional`, `position`, `predictive`, `hierarchical`
     hang.toml, key "fabric": there is no fabric "tweed"; there is: silk, jersey, cotton, wool, denim
     hang.toml, key "fabric.areal_density": it is -1 and must be above 0
     hang.toml, key "fabric.damping": it is NaN and must be 0 or more

@@ -1,6 +1,8 @@
 //! What a model must be, on grids, shapes, seams, real garments and random outlines.
 
 mod garments;
+mod long_limits;
+
 mod random_outlines;
 mod seams;
 mod shapes;

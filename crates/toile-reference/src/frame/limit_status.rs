@@ -8,13 +8,13 @@ use toile_model::Limit;
 pub struct LimitStatus {
     /// Largest elongation [1]; 0 when no spring is longer than its rest length.
     pub elongation_max: f32,
-    /// Number of limits that are exceeded.
+    /// Number of springs whose elongation is above the threshold.
     pub over_long_count: u32,
 }
 
 /// Elongation length/rest − 1 of every structural and shear spring, which are those that have a limit.
-/// `positions` [m] has the shape [particle_count].
-pub fn limit_status(positions: &[Vec3], limits: &[Limit]) -> LimitStatus {
+/// `threshold` [1] is the elongation that counts as over-long; `positions` [m] has the shape [particle_count].
+pub fn limit_status(positions: &[Vec3], limits: &[Limit], threshold: f32) -> LimitStatus {
     let mut status = LimitStatus::default();
     for limit in limits {
         let [a, b] = limit.ends.map(|end| positions[end as usize]);
@@ -23,7 +23,7 @@ pub fn limit_status(positions: &[Vec3], limits: &[Limit]) -> LimitStatus {
         if elongation > status.elongation_max {
             status.elongation_max = elongation;
         }
-        if length > limit.max_length {
+        if elongation > threshold {
             status.over_long_count += 1;
         }
     }

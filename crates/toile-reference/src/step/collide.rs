@@ -67,7 +67,7 @@ pub fn collide(
                         answered += change(answered, probe, gain, settings);
                     }
                     let depth = (-probe.distance).max(0.0);
-                    particles.positions[i] += probe.normal * depth.min(settings.push_speed * settings.dt);
+                    particles.positions[i] += probe.normal * depth.min(settings.push_speed_per_sweep() * settings.dt);
                 }
                 particles.velocities[i] = answered;
             }

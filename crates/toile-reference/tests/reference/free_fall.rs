@@ -36,7 +36,9 @@ fn free_fall_error(model: &Model, settings: &StepSettings) -> f64 {
 #[test]
 fn a_relaxed_sheet_falls_freely_under_every_rule() {
     let model = Grid::horizontal(8, 0.02).model();
-    for rule in [Rule::None, Rule::Zero, Rule::Average, Rule::Directional, Rule::Position, Rule::Predictive] {
+    for rule in
+        [Rule::None, Rule::Zero, Rule::Average, Rule::Directional, Rule::Position, Rule::Predictive, Rule::Hierarchical]
+    {
         let error = free_fall_error(&model, &StepSettings { rule, ..settings() });
         assert!(error < 1e-5, "{rule:?}: {error}");
     }
@@ -45,7 +47,7 @@ fn a_relaxed_sheet_falls_freely_under_every_rule() {
 #[test]
 fn a_stretched_sheet_falls_freely_under_the_rules_that_keep_momentum() {
     let model = stretched_sheet();
-    for rule in [Rule::None, Rule::Average, Rule::Position, Rule::Predictive] {
+    for rule in [Rule::None, Rule::Average, Rule::Position, Rule::Predictive, Rule::Hierarchical] {
         let error = free_fall_error(&model, &StepSettings { rule, ..settings() });
         assert!(error < 1e-5, "{rule:?}: {error}");
     }

@@ -79,6 +79,7 @@ impl Parts {
             quads: self.quads,
             limits,
             limit_colours,
+            attachments: Csr::from_rows((0..count).map(|_| [])),
             ..Model::default()
         }
     }

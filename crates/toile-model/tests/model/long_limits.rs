@@ -1,0 +1,147 @@
+//! Limits that span many cells: as long as the flat cloth, no shorter, across seams and around notches.
+
+use crate::support::{check_colours, garment, polygon, rectangle, settings};
+use glam::{DVec2, DVec3, dvec2};
+use std::f64::consts::PI;
+use toile_model::Model;
+use toile_scene::{Garment, Pin, Rule, Settings, Sheet, VelocityModification};
+
+fn hierarchical(spacing: f64) -> Settings {
+    Settings { velocity_modification: VelocityModification::new(Rule::Hierarchical), ..settings(spacing) }
+}
+
+fn sheet(columns: u32, rows: u32, pins: Vec<Pin>) -> Model {
+    let sheet = Sheet {
+        name: "sheet".into(),
+        size: DVec2::new(f64::from(columns - 1), f64::from(rows - 1)) * 0.01,
+        columns,
+        rows,
+        corner: DVec3::ZERO,
+        right: DVec3::X,
+        down: DVec3::NEG_Y,
+        pins,
+    };
+    Model::from_sheet(&sheet, &hierarchical(0.01))
+}
+
+fn check_long_colours(model: &Model) {
+    let ends: Vec<[u32; 2]> = model.long_limits.iter().map(|l| l.ends).collect();
+    check_colours(&model.long_limit_colours, &ends);
+}
+
+#[test]
+fn on_a_grid_every_line_of_2_4_and_8_cells_has_its_length() {
+    let model = sheet(12, 10, Vec::new());
+    check_long_colours(&model);
+    let cells: Vec<i64> = model
+        .long_limits
+        .iter()
+        .map(|limit| {
+            let [a, b] = limit.ends.map(|i| [i64::from(i % 12), i64::from(i / 12)]);
+            let [x, y] = [b[0] - a[0], b[1] - a[1]];
+            let distance = model.positions[limit.ends[0] as usize].distance(model.positions[limit.ends[1] as usize]);
+            assert!((limit.rest_length - distance).abs() < 1e-6, "{limit:?}: {distance} m");
+            assert!(x == 0 || y == 0 || x.abs() == y, "{x} columns and {y} rows");
+            x.abs().max(y)
+        })
+        .collect();
+    assert!(cells.is_sorted_by(|a, b| a >= b), "the longest come first");
+    for (wanted, columns, rows) in [(8, 4, 2), (4, 8, 6), (2, 10, 8)] {
+        let count = cells.iter().filter(|cells| **cells == wanted).count();
+        assert_eq!(count, columns * 10 + rows * 12 + 2 * columns * rows, "of {wanted} cells");
+    }
+    // Two colours for each of warp, weft and the two diagonals.
+    assert_eq!(model.long_limit_colours.len(), 3 * 8 - 4, "of 8 cells fit none after another");
+}
+
+#[test]
+fn other_rules_have_no_long_limits() {
+    let model = Model::from_garment(&tube(), &settings(0.02)).unwrap();
+    assert!(model.long_limits.is_empty() && model.sewn().0.long_limits.is_empty());
+    assert!(model.attachments.values.is_empty());
+}
+
+/// Front and back of a tube of 0.6 m around and 0.3 m along.
+fn tube() -> Garment {
+    let mut back = rectangle("back", [0.3, 0.3], -0.2);
+    back.edges.reverse();
+    garment(vec![rectangle("front", [0.3, 0.3], 0.2), back], &[([0, 1], [1, 1]), ([0, 3], [1, 3])])
+}
+
+#[test]
+fn they_reach_across_seams_and_let_a_tube_be_round() {
+    let (model, merge) = Model::from_garment(&tube(), &hierarchical(0.02)).unwrap().sewn();
+    check_long_colours(&model);
+    let open = Model::from_garment(&tube(), &hierarchical(0.02)).unwrap();
+    let front = open.panels[0].particles.end;
+    // Angle and height of each particle on the round tube: the back goes on where the front ends.
+    let place = |i: u32| {
+        let member = merge.members.row(i as usize)[0];
+        let flat = open.flat[member as usize].as_dvec2();
+        let around = if member < front { flat.x } else { 0.6 - flat.x };
+        dvec2(around / 0.6 * 2.0 * PI, flat.y)
+    };
+    let radius = 0.6 / (2.0 * PI);
+    let mut across = 0;
+    for limit in &model.long_limits {
+        let [a, b] = limit.ends.map(place);
+        let turn = (a.x - b.x).rem_euclid(2.0 * PI);
+        let turn = turn.min(2.0 * PI - turn);
+        let chord = (2.0 * radius * (0.5 * turn).sin()).hypot(a.y - b.y);
+        let geodesic = (radius * turn).hypot(a.y - b.y);
+        assert!(f64::from(limit.rest_length) > chord - 1e-6, "{limit:?} is shorter than {chord} m");
+        assert!(f64::from(limit.rest_length) < geodesic + 1e-6, "{limit:?} is longer than {geodesic} m");
+        let sides = limit.ends.map(|i| merge.members.row(i as usize)[0] < front);
+        across += usize::from(sides[0] != sides[1]);
+    }
+    assert!(across > 100, "{across} limits lead from the front to the back");
+}
+
+#[test]
+fn around_a_notch_they_are_as_long_as_the_way_inside() {
+    // A quarter of a circle is cut out of a square.
+    let arc = (0..=12).map(|k| f64::from(k) * PI / 24.0).map(|a| dvec2(0.3 - 0.2 * a.cos(), 0.3 - 0.2 * a.sin()));
+    let corners = [dvec2(0.3, 0.0), dvec2(0.3, 0.1), dvec2(0.1, 0.3), dvec2(0.0, 0.3), dvec2(0.0, 0.0)];
+    let mut points: Vec<DVec2> = arc.collect();
+    points.reverse();
+    points.extend([corners[3], corners[4], corners[0]]);
+    let bitten = garment(vec![polygon("bitten", &points, 0.0)], &[]);
+    let model = Model::from_garment(&bitten, &hierarchical(0.02)).unwrap();
+    check_long_colours(&model);
+    let mut around = 0;
+    for limit in &model.long_limits {
+        let [a, b] = limit.ends.map(|i| model.flat[i as usize].as_dvec2());
+        let (chord, length) = (a.distance(b), f64::from(limit.rest_length));
+        assert!(length > chord - 1e-6, "{limit:?} is shorter than the straight line, {chord} m");
+        let outside = (a.midpoint(b) - dvec2(0.3, 0.3)).length() < 0.195;
+        if outside {
+            around += 1;
+            // The way along the arc: a chord of 0.2 m · 2·sin(angle/2).
+            let along = 0.4 * (chord / 0.4).asin();
+            assert!(length > chord * 1.0001 && length < 1.05 * along, "{limit:?}: {along} m along the arc");
+        }
+    }
+    assert!(around > 5, "{around} limits lead around the notch");
+}
+
+#[test]
+fn every_particle_hangs_on_the_nearest_pin_of_each_group() {
+    let pin = |column, row| Pin { column, row };
+    let model = sheet(12, 10, vec![pin(0, 0), pin(1, 0), pin(11, 0)]);
+    for i in 0..model.particle_count() {
+        let row = model.attachments.row(i as usize);
+        if model.inverse_masses[i as usize] == 0.0 {
+            assert!(row.is_empty(), "a pin hangs on nothing");
+            continue;
+        }
+        let distance = |pin: u32| model.positions[i as usize].distance(model.positions[pin as usize]);
+        let nearer = if distance(0) <= distance(1) { 0 } else { 1 };
+        let mut pins: Vec<u32> = row.iter().map(|a| a.pin).collect();
+        pins.sort_unstable();
+        assert_eq!(pins, [nearer, 11]);
+        for attachment in row {
+            let stretch = attachment.max_length / distance(attachment.pin);
+            assert!((stretch - 1.0 - 0.9 * model.threshold).abs() < 1e-5, "{stretch}");
+        }
+    }
+}
