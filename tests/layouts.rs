@@ -14,6 +14,7 @@ macro_rules! for_every_struct {
             Span,
             LinkSpring,
             Limit,
+            Strand,
             Attachment,
             SeamPair,
             Hold,

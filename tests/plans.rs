@@ -105,7 +105,7 @@ fn the_passes_of_a_plan_stand_in_the_order_of_the_table() {
 
 #[test]
 fn a_dispatch_of_any_size_reaches_every_item_once() {
-    let pass = |items| toile_gpu::Pass { kernel: Kernel::Euler, items: 0..items, colour: None };
+    let pass = |items| toile_gpu::Pass::over(Kernel::Euler, items);
     for items in [1, 64, 65, 65_535 * 64, 65_535 * 64 + 1, 20_000_000] {
         let [x, y] = pass(items).workgroups();
         assert!(x <= 65_535 && y <= 65_535);

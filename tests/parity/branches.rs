@@ -87,6 +87,23 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
             let pairs: Vec<_> = before.colour_limits().iter().map(|l| l.ends.map(|end| end as usize)).collect();
             ends(&pairs, before, after, &mut see);
         }
+        Kernel::LimitStrands => {
+            let pairs: Vec<_> = before.strand_limits().iter().map(|l| l.ends.map(|end| end as usize)).collect();
+            let pinned = |i: usize| weights[i] == 0.0;
+            let either =
+                |wanted: &dyn Fn(usize) -> bool| pairs.iter().filter(|[a, b]| wanted(*a) || wanted(*b)).count();
+            let both = |wanted: &dyn Fn(usize) -> bool| pairs.iter().filter(|[a, b]| wanted(*a) && wanted(*b)).count();
+            see("changes both ends", both(&changed));
+            see("changes neither", both(&|i| !changed(i) && !pinned(i)));
+            see("has a pinned end", either(&pinned));
+            see("has both ends pinned", both(&pinned));
+            see("has an end that is no number", either(&|i| positions[i].is_nan()));
+            assert_eq!(both(&|i| pinned(i) && changed(i)), 0, "pins stay");
+            let strands = before.colour_strands();
+            see("has one level", strands.iter().filter(|s| s.level_count == 1).count());
+            see("has many levels", strands.iter().filter(|s| s.level_count > 4).count());
+            see("is longer than a workgroup", strands.iter().filter(|s| s.particles.len() > 64).count());
+        }
         Kernel::LimitAttachments => {
             let attached = |i: &usize| !before.attachments.row(*i).is_empty();
             let pinned = |i: &usize| weights[*i] == 0.0;

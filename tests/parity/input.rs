@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3, Vec4};
 use std::ops::Range;
 use toile_gpu::BodyMaps;
 use toile_kernels::structs;
-use toile_model::{Attachment, Csr, Hold, Limit, Link, SeamPair, StepSettings};
+use toile_model::{Attachment, Csr, Hold, Limit, Link, Model, SeamPair, StepSettings, Strand};
 use toile_reference::{Ball, Contact, Lag, Midpoints, Particles, Probe};
 use toile_scene::{Friction, Pose, Skin, Wind};
 use toile_workspace::{Inputs, Layers};
@@ -25,6 +25,9 @@ pub struct Input {
     pub quad_winds: Vec<Vec3>,
     pub links: Csr<Link>,
     pub limits: Vec<Limit>,
+    pub strands: Vec<Strand>,
+    pub strand_particles: Vec<u32>,
+    pub strand_lengths: Vec<f32>,
     pub attachments: Csr<Attachment>,
     pub seam_pairs: Vec<SeamPair>,
     /// The items of the colour that the dispatch works on.
@@ -67,6 +70,22 @@ impl Input {
     /// The limits of the span.
     pub fn colour_limits(&self) -> &[Limit] {
         &self.limits[self.span.start as usize..self.span.end as usize]
+    }
+
+    /// The strands of the span.
+    pub fn colour_strands(&self) -> &[Strand] {
+        &self.strands[self.span.start as usize..self.span.end as usize]
+    }
+
+    /// The limits of the strands of the span.
+    pub fn strand_limits(&self) -> Vec<Limit> {
+        let model = Model {
+            strands: self.colour_strands().to_vec(),
+            strand_particles: self.strand_particles.clone(),
+            strand_lengths: self.strand_lengths.clone(),
+            ..Model::default()
+        };
+        model.strand_limits().collect()
     }
 
     /// The seam pairs of the span.
@@ -196,6 +215,14 @@ impl Inputs for Input {
                 rest_length: l.rest_length,
                 max_length: l.max_length,
             })),
+            "strands" => array(self.strands.iter().map(|s| structs::Strand {
+                first: s.particles.start,
+                count: s.particles.end - s.particles.start,
+                lengths: s.lengths,
+                level_count: s.level_count,
+            })),
+            "strand_particles" => words(&self.strand_particles),
+            "strand_lengths" => bytemuck::cast_slice(&self.strand_lengths).to_vec(),
             "attachment_offsets" => words(&self.attachments.offsets),
             "attachments" => array(
                 self.attachments.values.iter().map(|a| structs::Attachment { pin: a.pin, max_length: a.max_length }),

@@ -34,6 +34,10 @@ pub fn reference(kernel: Kernel, input: &mut Input) {
         Kernel::LimitDirectional => {
             step::limit_directional(particles, before.colour_limits(), Some(&before.contacts), settings);
         }
+        Kernel::LimitStrands => {
+            let (line, lengths) = (&before.strand_particles, &before.strand_lengths);
+            step::limit_strands(particles, before.colour_strands(), line, lengths, dt);
+        }
         Kernel::LimitAttachments => step::limit_attachments(particles, &before.attachments, dt),
         Kernel::LimitPredictive => step::limit_predictive(particles, before.colour_limits(), dt),
         Kernel::LimitPosition => step::limit_position(particles, before.colour_limits()),

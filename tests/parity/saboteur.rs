@@ -11,6 +11,7 @@ const SPARED: &[&str] = &[
     // The second dimension of a dispatch begins beyond 65 535 workgroups.
     "return id.x + id.y * (groups.x * WORKGROUP_SIZE);",
     "let partial = group.x + group.y * groups.x;",
+    "let item = group.x + group.y * groups.x;",
     // The rim of the maps is empty, so what lies beyond it is nothing too.
     "if !(left >= 0.0 && left + 1.0 < f32(map_frame.columns) && top >= 0.0 && top + 1.0 < f32(map_frame.rows)) {",
 ];

@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3, Vec4, dvec3, vec3};
 use std::sync::OnceLock;
 use toile_gpu::Surface;
 use toile_kernels::{Domain, Kernel, TABLE};
-use toile_model::{Attachment, Csr, Hold, Limit, Link, MapFrame, Model, NO_CORNER, SeamPair, StepSettings};
+use toile_model::{Attachment, Csr, Hold, Limit, Link, MapFrame, Model, NO_CORNER, SeamPair, StepSettings, Strand};
 use toile_reference::{Ball, Contact, Lag, Midpoints, Particles, Probe};
 use toile_scene::{Displacement, Friction, Influence, Morphs, Pose, Skin, Wind};
 use toile_workspace::{Layers, Random, box_mesh, gpu, settings, uv_sphere};
@@ -44,7 +44,11 @@ pub fn input(kernel: Kernel, items: u32, variant: Variant) -> Input {
     let settings = step_settings(variant);
     let contacts: Vec<Contact> = (0..counts.particles).map(|_| contact(random)).collect();
     let particles = particles(random, &contacts);
-    let (span, limits, seam_pairs) = pairs(random, &particles, &counts, domain);
+    let (mut span, limits, seam_pairs) = pairs(random, &particles, &counts, domain);
+    let (strands, strand_particles, strand_lengths) = strands(random, &particles, &counts, domain);
+    if domain == Domain::StrandColour {
+        span = counts.others..counts.others + items;
+    }
     let quads = quads(random, &counts);
     let midpoints = Midpoints {
         positions: (0..counts.quads).map(|_| random.vector(0.6)).collect(),
@@ -54,8 +58,8 @@ pub fn input(kernel: Kernel, items: u32, variant: Variant) -> Input {
     let (holds, held_particles) = holds(random, &particles, counts.holds);
     let (skin, pose, body) = body(random, if domain == Domain::Vertex { items } else { 1 });
     let mut input = Input {
-        // A hold takes a whole workgroup.
-        invocations: if domain == Domain::Hold { 64 * items } else { items },
+        // Holds and strands take a whole workgroup.
+        invocations: if matches!(domain, Domain::Hold | Domain::StrandColour) { 64 * items } else { items },
         ball: Ball {
             centre: vec3(0.1, 0.0, -0.05),
             radius: 0.35,
@@ -72,6 +76,9 @@ pub fn input(kernel: Kernel, items: u32, variant: Variant) -> Input {
         quad_winds: (0..counts.quads).map(|_| random.vector(0.02)).collect(),
         forces: (0..counts.particles).map(|i| force(random, i, &contacts[i as usize])).collect(),
         links: links(random, counts.particles),
+        strands,
+        strand_particles,
+        strand_lengths,
         attachments: attachments(random, &particles),
         limits,
         seam_pairs,
@@ -115,6 +122,7 @@ fn counts(domain: Domain, items: u32) -> Counts {
         Domain::LimitColour | Domain::SeamColour => {
             Counts { particles: 2 * items + 4, pairs: items, others: 2, ..none }
         }
+        Domain::StrandColour => Counts { particles: 8 * items + 200, others: 2, ..none },
         Domain::Workgroup => Counts { partials: items, ..none },
         Domain::Vertex => Counts { particles: 1, ..none },
     }
@@ -208,6 +216,42 @@ fn links(random: &mut Random, particles: u32) -> Csr<Link> {
         };
         (0..count).map(|_| link(random)).collect::<Vec<_>>()
     }))
+}
+
+/// Disjoint strands of a few particles, and some of more than a workgroup has invocations, with others before and after the span of
+/// the colour.
+fn strands(
+    random: &mut Random,
+    particles: &Particles,
+    counts: &Counts,
+    domain: Domain,
+) -> (Vec<Strand>, Vec<u32>, Vec<f32>) {
+    let (mut strands, mut line, mut lengths) = (Vec::new(), Vec::new(), Vec::new());
+    if domain != Domain::StrandColour {
+        return (strands, line, lengths);
+    }
+    let order = random.shuffled(counts.particles);
+    let mut taken = 0;
+    let count = counts.particles - 200;
+    for k in 0..count / 8 + 2 * counts.others {
+        let inside = (counts.others..counts.others + count / 8).contains(&k);
+        let wanted = if k == counts.others { 100 } else { 2 + random.below(6) };
+        let first = if inside { taken } else { 0 };
+        taken += if inside { wanted } else { 0 };
+        let start = line.len() as u32;
+        line.extend(&order[first as usize..(first + wanted) as usize]);
+        let mut strand = Strand { particles: start..start + wanted, lengths: lengths.len() as u32, level_count: 0 };
+        while 1 << strand.level_count < wanted {
+            let ends = line[start as usize..].iter().zip(&line[start as usize + (1 << strand.level_count)..]);
+            lengths.extend(ends.map(|(a, b): (&u32, &u32)| {
+                let distance = particles.positions[*a as usize].distance(particles.positions[*b as usize]);
+                if distance > 0.0 { distance * random.between(0.9, 1.3) } else { 0.1 }
+            }));
+            strand.level_count += 1;
+        }
+        strands.push(strand);
+    }
+    (strands, line, lengths)
 }
 
 /// Distances from other particles, a little more or less than they are.

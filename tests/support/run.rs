@@ -117,7 +117,7 @@ impl Compiled {
             layout: &self.layout,
             entries: &entries,
         });
-        let [x, y] = Pass { kernel: self.kernel, items: 0..items, colour: None }.workgroups();
+        let [x, y] = Pass::over(self.kernel, items).workgroups();
         gpu.run(|encoder| {
             let mut compute = encoder.begin_compute_pass(&Default::default());
             compute.set_pipeline(&self.pipeline);

@@ -1,12 +1,13 @@
 //! The buffers of a plan: those that its kernels name, and no other.
 
+use crate::plan::limit_colours;
 use crate::{GpuError, Plan};
 use encase::{ShaderType, StorageBuffer, UniformBuffer, internal::WriteInto};
 use glam::{DVec3, Vec3, Vec4};
 use std::collections::BTreeMap;
 use toile_kernels::{Binding, Interface, Resource, WORKGROUP_SIZE, structs};
 use toile_model::{Model, StepSettings};
-use toile_scene::{Friction, Wind};
+use toile_scene::{Friction, Rule, Wind};
 use wgpu::util::DeviceExt;
 
 /// Bytes from one entry of a moving uniform to the next: the alignment that every WebGPU device accepts.
@@ -128,7 +129,7 @@ fn contents(name: &str, model: &Model, settings: &StepSettings) -> Contents {
     let quads = u64::from(model.quad_count());
     match name {
         "step" => uniform(&step_params(model, settings)),
-        "span" => Contents::Bytes(spans(model)),
+        "span" => Contents::Bytes(spans(model, settings.rule)),
         "ball" | "lag" => Contents::Zeros(u64::from(settings.steps_per_frame) * MOVING_UNIFORM_STRIDE),
         "positions" => {
             Contents::Bytes(vec4s(model.positions.iter().zip(&model.inverse_masses).map(|(p, w)| p.extend(*w))))
@@ -149,8 +150,19 @@ fn contents(name: &str, model: &Model, settings: &StepSettings) -> Contents {
                 rest_length: l.rest_length,
                 max_length: l.max_length,
             };
-            array(model.limits.iter().chain(&model.long_limits).map(limit).collect())
+            array(model.limits.iter().chain(&model.loose_limits).map(limit).collect())
         }
+        "strands" => {
+            let strand = |s: &toile_model::Strand| structs::Strand {
+                first: s.particles.start,
+                count: s.particles.end - s.particles.start,
+                lengths: s.lengths,
+                level_count: s.level_count,
+            };
+            array(model.strands.iter().map(strand).collect())
+        }
+        "strand_particles" => words(&model.strand_particles),
+        "strand_lengths" => Contents::Bytes(bytemuck::cast_slice(&model.strand_lengths).to_vec()),
         "attachment_offsets" => words(&model.attachments.offsets),
         "attachments" => {
             let attachment = |a: &toile_model::Attachment| structs::Attachment { pin: a.pin, max_length: a.max_length };
@@ -217,12 +229,10 @@ fn step_params(model: &Model, settings: &StepSettings) -> structs::StepParams {
     }
 }
 
-/// The spans of the limit colours, of the long limits, then those of the seam colours.
-fn spans(model: &Model) -> Vec<u8> {
+/// The spans of the colours of the limits, of the strands, then those of the seam pairs.
+fn spans(model: &Model, rule: Rule) -> Vec<u8> {
     let mut bytes = Vec::new();
-    let first = model.limits.len() as u32;
-    let long = model.long_limit_colours.iter().map(|colour| first + colour.start..first + colour.end);
-    for colour in model.limit_colours.iter().cloned().chain(long).chain(model.seam_colours.iter().cloned()) {
+    for colour in limit_colours(model, rule).iter().chain(&model.strand_colours).chain(&model.seam_colours) {
         let span = structs::Span { first: colour.start, count: colour.end - colour.start };
         bytes.extend(uniform_bytes(&span));
         bytes.resize(bytes.len().next_multiple_of(MOVING_UNIFORM_STRIDE as usize), 0);

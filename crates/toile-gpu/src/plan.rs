@@ -27,6 +27,8 @@ pub struct Pass {
     pub items: Range<u32>,
     /// Which colour, for kernels that work by colour.
     pub colour: Option<u32>,
+    /// Whether a whole workgroup works on each item.
+    pub workgroup_per_item: bool,
 }
 
 /// What one kernel does in a step or at the end of a frame.
@@ -72,10 +74,11 @@ impl Plan {
                 Stage::Pose | Stage::Frame | Stage::Handover | Stage::Measure => 0,
             };
             for _ in 0..repeats {
-                step.extend(group.iter().flat_map(|row| passes(row, model)));
+                step.extend(group.iter().flat_map(|row| passes(row, model, needs)));
             }
         }
-        let frame = rows.iter().filter(|row| row.stage == Stage::Frame).flat_map(|row| passes(row, model)).collect();
+        let frame =
+            rows.iter().filter(|row| row.stage == Stage::Frame).flat_map(|row| passes(row, model, needs)).collect();
         Self { step, frame }
     }
 
@@ -92,9 +95,15 @@ impl Plan {
 }
 
 impl Pass {
+    /// One dispatch over so many items.
+    pub fn over(kernel: Kernel, count: u32) -> Self {
+        Self { kernel, items: 0..count, colour: None, workgroup_per_item: false }
+    }
+
     /// Workgroups to dispatch along x and y.
     pub fn workgroups(&self) -> [u32; 2] {
-        let groups = (self.items.end - self.items.start).div_ceil(WORKGROUP_SIZE);
+        let count = self.items.end - self.items.start;
+        let groups = if self.workgroup_per_item { count } else { count.div_ceil(WORKGROUP_SIZE) };
         [groups.min(WORKGROUPS_MAX), groups.div_ceil(WORKGROUPS_MAX)]
     }
 }
@@ -118,43 +127,42 @@ fn holds(need: Need, needs: &Needs) -> bool {
         Need::RuleDirectional => needs.rule == Rule::Directional,
         Need::RulePredictive => matches!(needs.rule, Rule::Predictive | Rule::Hierarchical),
         Need::Attachments => needs.attachments,
+        Need::Strands => needs.rule == Rule::Hierarchical,
         Need::RulePosition => needs.rule == Rule::Position,
     }
 }
 
-fn passes(row: &Row, model: &Model) -> Vec<Pass> {
-    let all = |count: u32| vec![Pass { kernel: row.kernel, items: 0..count, colour: None }];
-    let coloured = |colours: &[Range<u32>]| {
-        let colours = colours.iter().zip(0..);
-        colours.map(|(items, colour)| Pass { kernel: row.kernel, items: items.clone(), colour: Some(colour) }).collect()
+/// Colours of the limits that a rule works on: those of all springs, or under the hierarchical rule those that lie on no strand, which
+/// come after them in the array.
+pub(crate) fn limit_colours(model: &Model, rule: Rule) -> Vec<Range<u32>> {
+    if rule != Rule::Hierarchical {
+        return model.limit_colours.clone();
+    }
+    let first = model.limits.len() as u32;
+    model.loose_limit_colours.iter().map(|colour| first + colour.start..first + colour.end).collect()
+}
+
+fn passes(row: &Row, model: &Model, needs: &Needs) -> Vec<Pass> {
+    let workgroup_per_item = matches!(row.domain, Domain::Hold | Domain::StrandColour);
+    let pass = |items, colour| Pass { kernel: row.kernel, items, colour, workgroup_per_item };
+    let all = |count: u32| vec![pass(0..count, None)];
+    let coloured = |colours: &[Range<u32>]| -> Vec<Pass> {
+        colours.iter().cloned().zip(0..).map(|(items, colour)| pass(items, Some(colour))).collect()
     };
     match row.domain {
         Domain::Particle => all(model.particle_count()),
         Domain::Quad => all(model.quad_count()),
         Domain::Point => all(model.particle_count() + model.quad_count()),
-        Domain::Hold => all(WORKGROUP_SIZE * model.holds.len() as u32),
+        Domain::Hold => all(model.holds.len() as u32),
         Domain::Limit => all(model.limits.len() as u32),
-        Domain::LimitColour => limit_passes(row, model),
+        Domain::LimitColour => coloured(&limit_colours(model, needs.rule)),
+        // A strand pulls those that cross it out of shape: the second time over all of them mends most of that.
+        Domain::StrandColour => [coloured(&model.strand_colours), coloured(&model.strand_colours)].concat(),
         Domain::SeamPair => all(model.seam_pair_count()),
         Domain::SeamColour => coloured(&model.seam_colours),
         Domain::Workgroup => all(WORKGROUP_SIZE),
         Domain::Vertex => Vec::new(),
     }
-}
-
-/// The colours of the long limits, then those of single springs, which under the hierarchical rule come twice: long limits leave
-/// kinks that the second time smooths.
-fn limit_passes(row: &Row, model: &Model) -> Vec<Pass> {
-    let pass = |(items, colour): (Range<u32>, u32)| Pass { kernel: row.kernel, items, colour: Some(colour) };
-    let short: Vec<_> = model.limit_colours.iter().cloned().zip(0..).map(pass).collect();
-    let first = model.limits.len() as u32;
-    let shifted = model.long_limit_colours.iter().map(|colour| first + colour.start..first + colour.end);
-    let mut passes: Vec<_> = shifted.zip(model.colour_count()..).map(pass).collect();
-    if !passes.is_empty() {
-        passes.extend(short.clone());
-    }
-    passes.extend(short);
-    passes
 }
 
 impl fmt::Display for Plan {

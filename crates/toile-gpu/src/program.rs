@@ -34,7 +34,11 @@ impl Program {
             layout: Some(&pipeline_layout),
             module: &module,
             entry_point: Some(kernel.name()),
-            compilation_options: Default::default(),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                // Kernels write the memory of a workgroup before they read it.
+                zero_initialize_workgroup_memory: false,
+                ..Default::default()
+            },
             cache: None,
         });
         Self { interface, layout, pipeline }

@@ -1,6 +1,7 @@
 //! The solver: records the passes of a plan.
 
 use crate::buffers::{Buffers, MOVING_UNIFORM_STRIDE, uniform_bytes};
+use crate::plan::limit_colours;
 use crate::status::StatusReader;
 use crate::timing::{PassTime, Timer};
 use crate::{BodyMaps, GpuError, Pass, Plan, Program};
@@ -28,7 +29,8 @@ pub struct Solver {
     programs: BTreeMap<Kernel, BoundProgram>,
     sphere: Option<Sphere>,
     sphere_after_maps: bool,
-    limit_colour_count: u32,
+    /// First spans of the strands and of the seam pairs; those of the limits come before.
+    first_spans: [u32; 2],
     particle_count: u32,
     status: StatusReader,
     step: u64,
@@ -81,13 +83,15 @@ impl Solver {
             (kernel, BoundProgram { program, group })
         };
         let programs = programs.into_iter().map(bound).collect();
+        let first_strand = limit_colours(model, settings.rule).len() as u32;
+        let first_spans = [first_strand, first_strand + model.strand_colours.len() as u32];
         Ok(Self {
             settings: settings.clone(),
             plan,
             programs,
             sphere: colliders.sphere,
             sphere_after_maps: colliders.maps.is_some(),
-            limit_colour_count: (model.limit_colours.len() + model.long_limit_colours.len()) as u32,
+            first_spans,
             particle_count: model.particle_count(),
             status: StatusReader::new(device),
             step: 0,
@@ -176,7 +180,7 @@ impl Solver {
             }
             .as_entire_binding()
         });
-        let [x, y] = Pass { kernel: Kernel::StateCopy, items: 0..self.particle_count, colour: None }.workgroups();
+        let [x, y] = Pass::over(Kernel::StateCopy, self.particle_count).workgroups();
         let copy = || {
             timer.milliseconds(device, queue, |compute| {
                 compute.set_pipeline(program.pipeline());
@@ -217,7 +221,7 @@ impl Solver {
             }
             .as_entire_binding()
         });
-        let pass = Pass { kernel: Kernel::MergeParticles, items: 0..self.particle_count, colour: None };
+        let pass = Pass::over(Kernel::MergeParticles, self.particle_count);
         let [x, y] = pass.workgroups();
         let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         compute.set_pipeline(program.pipeline());
@@ -280,7 +284,8 @@ impl Solver {
         let bound = &self.programs[&pass.kernel];
         compute.set_pipeline(bound.program.pipeline());
         let entry = match (pass.kernel, pass.colour) {
-            (Kernel::CloseSeams, Some(colour)) => self.limit_colour_count + colour,
+            (Kernel::LimitStrands, Some(colour)) => self.first_spans[0] + colour,
+            (Kernel::CloseSeams, Some(colour)) => self.first_spans[1] + colour,
             (_, Some(colour)) => colour,
             (_, None) => step_of_frame,
         };

@@ -93,7 +93,7 @@ pub(crate) fn dispatch(
     kernel: Kernel,
     vertex_count: u32,
 ) {
-    let [x, y] = Pass { kernel, items: 0..vertex_count, colour: None }.workgroups();
+    let [x, y] = Pass::over(kernel, vertex_count).workgroups();
     compute.set_pipeline(program.pipeline());
     compute.set_bind_group(0, group, &[]);
     compute.dispatch_workgroups(x, y, 1);

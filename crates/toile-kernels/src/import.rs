@@ -24,6 +24,7 @@ const SHARED: &[(&str, &str)] = &shared![
     "span",
     "status",
     "step_params",
+    "strand",
     "vertices",
 ];
 

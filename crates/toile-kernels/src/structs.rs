@@ -79,6 +79,19 @@ pub struct Limit {
     pub max_length: f32,
 }
 
+/// A line of cloth and the limits along it. `wgsl/shared/strand.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct Strand {
+    /// First of its particles.
+    pub first: u32,
+    /// Number of its particles.
+    pub count: u32,
+    /// First of its maximum lengths.
+    pub lengths: u32,
+    /// Number of levels.
+    pub level_count: u32,
+}
+
 /// A maximum distance of a particle from a pin. `wgsl/shared/attachment.wgsl`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
 pub struct Attachment {

@@ -35,6 +35,8 @@ pub enum Domain {
     Limit,
     /// A limit; one dispatch per colour.
     LimitColour,
+    /// A strand, one workgroup each; one dispatch per colour.
+    StrandColour,
     /// A seam pair.
     SeamPair,
     /// A seam pair; one dispatch per colour.
@@ -80,6 +82,8 @@ pub enum Need {
     RulePredictive,
     /// Limits under the rule Position.
     RulePosition,
+    /// Strands, under the rule Hierarchical.
+    Strands,
     /// Pins under the rule Hierarchical.
     Attachments,
 }
@@ -159,7 +163,9 @@ kernels! {
     LimitDirectional "step" "limit_directional" Sweep LimitColour RuleDirectional;
     /// From pins outward, before the limits between neighbours.
     LimitAttachments "step" "limit_attachments" Sweep Particle Attachments;
-    /// The default rule: on long limits first, then on those of single springs.
+    /// The default rule, along lines of cloth.
+    LimitStrands "step" "limit_strands" Sweep StrandColour Strands;
+    /// The predictive rule on single springs; under the default rule on those that lie on no strand.
     LimitPredictive "step" "limit_predictive" Sweep LimitColour RulePredictive;
     /// Points of the quads that are tested. D §6.
     QuadMidpoints "step" "quad_midpoints" Sweep Quad Body;

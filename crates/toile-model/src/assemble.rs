@@ -7,7 +7,7 @@ use crate::{Csr, Limit, Link, Model, Spring, SpringKind};
 use toile_scene::Rule;
 
 /// Part of the threshold that hierarchical limits hold [1]. Sweeps end before they converge; what is left goes on top.
-const AIM: f32 = 0.9;
+const AIM: f32 = 0.8;
 
 impl Model {
     /// Fills what follows from springs, seam pairs and quads.
@@ -17,12 +17,9 @@ impl Model {
         if let Some(step) = self.step_wanted {
             soften(&mut self.links, &self.inverse_masses, step);
         }
-        let limited = || self.springs.iter().filter(|s| matches!(s.kind, SpringKind::Structural | SpringKind::Shear));
-        let mut limits: Vec<Limit> = limited()
-            .map(|s| Limit { ends: s.ends, rest_length: s.rest_length, max_length: self.stretch() * s.rest_length })
-            .collect();
+        let mut limits: Vec<Limit> = self.spring_limits().collect();
         let above = self.above();
-        let pairs: Vec<Pair> = limited().map(|s| Pair { ends: s.ends, family: family(s, &above) }).collect();
+        let pairs: Vec<Pair> = self.limited().map(|s| Pair { ends: s.ends, family: family(s, &above) }).collect();
         self.limit_colours = sort_by_colour(&mut limits, &pairs, count);
         self.limits = limits;
         if self.attachments.row_count() == 0 {
@@ -38,6 +35,19 @@ impl Model {
         }
         self.particle_quads = Csr::from_rows(rows);
         self
+    }
+
+    /// The springs that have a limit.
+    fn limited(&self) -> impl Iterator<Item = &Spring> {
+        self.springs.iter().filter(|s| matches!(s.kind, SpringKind::Structural | SpringKind::Shear))
+    }
+
+    /// Limits of the springs that have one, in their order.
+    pub(crate) fn spring_limits(&self) -> impl Iterator<Item = Limit> {
+        let stretch = self.stretch();
+        let limit =
+            move |s: &Spring| Limit { ends: s.ends, rest_length: s.rest_length, max_length: stretch * s.rest_length };
+        self.limited().map(limit)
     }
 
     /// Maximum length of a limit as part of its rest length [1].

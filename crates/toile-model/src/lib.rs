@@ -12,6 +12,7 @@ mod fan;
 mod flat_mesh;
 mod geometry;
 mod lattice;
+mod lines;
 mod long_limits;
 mod map_frame;
 mod model;
@@ -27,14 +28,16 @@ mod soften;
 mod springs;
 mod status;
 mod step;
-mod strands;
 mod union_find;
 
 pub use csr::Csr;
 pub use dressing::{Dressing, DressingError, Stage};
 pub use error::ModelError;
+pub use long_limits::STRAND_PARTICLES_MAX;
 pub use map_frame::MapFrame;
-pub use model::{Attachment, Hold, Limit, Link, Merge, Model, NO_CORNER, PanelMesh, SeamPair, Spring, SpringKind};
+pub use model::{
+    Attachment, Hold, Limit, Link, Merge, Model, NO_CORNER, PanelMesh, SeamPair, Spring, SpringKind, Strand,
+};
 pub use needs::{Maps, Needs};
 pub use status::Status;
 pub use step::StepSettings;

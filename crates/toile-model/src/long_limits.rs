@@ -1,12 +1,15 @@
-//! Limits that span many cells: what one of them holds, one sweep over single springs would take a sweep per cell to hold.
+//! Limits that span many cells: what one of them holds, a sweep over single springs would take a sweep per cell to hold.
 
 use crate::colouring::{Pair, sort_by_colour};
-use crate::strands::{Cloth, Stretch};
-use crate::{Attachment, Csr, Limit};
+use crate::lines::{Cloth, Line};
+use crate::{Attachment, Csr, Limit, Model, Strand};
 use glam::DVec2;
-use std::ops::Range;
 
-/// Cells along the longest diagonals: farther than this a sweep along warp and weft leaves them nothing to do.
+/// Particles of a strand at most: what a workgroup holds in its memory.
+pub const STRAND_PARTICLES_MAX: u32 = 512;
+/// Particles of a strand at least; what is shorter is a single limit.
+const STRAND_PARTICLES_MIN: usize = 3;
+/// Cells along the longest limits of diagonals: farther than this warp and weft leave them nothing to do.
 const DIAGONAL_CELLS: usize = 8;
 /// Cells along the longest limits of a small cloth.
 const CELLS_MIN: usize = 8;
@@ -15,42 +18,84 @@ const CELLS_PART: f64 = 1.0 / 16.0;
 /// Most pins, or groups of neighbouring pins, that one particle is attached to.
 const ATTACHMENT_COUNT: usize = 4;
 
-/// Limits that span 2, 4, 8… cells along warp, weft and the diagonals, each as long as the flat cloth between its ends times
-/// `stretch`. Sorted by level, the longest first, and inside a level by colour; with the range of each colour.
-pub(crate) fn long_limits(cloth: &Cloth<'_>, stretch: f32) -> (Vec<Limit>, Vec<Range<u32>>) {
-    let cells_max = CELLS_MIN.max(((cloth.particle_count as f64).sqrt() * CELLS_PART).round() as usize);
-    let rims = cloth.rims();
-    let mut sides = cloth.side_strands(&rims);
-    let mut diagonals = cloth.diagonal_strands(&rims);
-    let mut levels = Vec::new();
-    let mut cells = 2;
-    while cells <= cells_max {
-        let mut stretches = sides.doubled();
-        if cells <= DIAGONAL_CELLS {
-            stretches.extend(diagonals.doubled());
+impl Model {
+    /// Fills the strands of a cloth, and the limits of the springs that lie on none.
+    pub(crate) fn add_strands(&mut self, cloth: &Cloth<'_>) {
+        let cells_max = CELLS_MIN.max(((cloth.particle_count as f64).sqrt() * CELLS_PART).round() as usize);
+        let rims = cloth.rims();
+        let sides = cloth.side_lines().cut(STRAND_PARTICLES_MAX as usize);
+        let diagonals = cloth.diagonal_lines().cut(STRAND_PARTICLES_MAX as usize);
+        let kinds =
+            sides.iter().map(|line| (line, cells_max)).chain(diagonals.iter().map(|line| (line, DIAGONAL_CELLS)));
+        let lines: Vec<(&Line, usize)> =
+            kinds.filter(|(line, _)| line.particles.len() >= STRAND_PARTICLES_MIN).collect();
+        let colours = line_colours(&lines, cloth.particle_count);
+        let stretch = self.stretch();
+        let mut strand_ends: Vec<[u32; 2]> = Vec::new();
+        for colour in 0..colours.iter().max().map_or(0, |last| last + 1) {
+            let first = self.strands.len() as u32;
+            for ((line, cells_max), _) in lines.iter().zip(&colours).filter(|(_, c)| **c == colour) {
+                let start = self.strand_particles.len() as u32;
+                self.strand_particles.extend(&line.particles);
+                let mut strand = Strand {
+                    particles: start..self.strand_particles.len() as u32,
+                    lengths: self.strand_lengths.len() as u32,
+                    level_count: 0,
+                };
+                let mut cells = 1;
+                while cells <= (*cells_max).min(line.particles.len() - 1) {
+                    let lengths = cloth.lengths(line, cells, &rims);
+                    self.strand_lengths.extend(lengths.iter().map(|length| stretch * *length as f32));
+                    strand.level_count += 1;
+                    cells *= 2;
+                }
+                strand_ends.extend(line.particles.windows(2).map(|p| [p[0].min(p[1]), p[0].max(p[1])]));
+                self.strands.push(strand);
+            }
+            self.strand_colours.push(first..self.strands.len() as u32);
         }
-        levels.push(level(&stretches, stretch, cloth.particle_count));
-        cells *= 2;
+        strand_ends.sort_unstable();
+        self.loose_limits =
+            self.spring_limits().filter(|limit| strand_ends.binary_search(&limit.ends).is_err()).collect();
+        let pairs: Vec<Pair> = self.loose_limits.iter().map(|l| Pair { ends: l.ends, family: None }).collect();
+        self.loose_limit_colours = sort_by_colour(&mut self.loose_limits, &pairs, cloth.particle_count);
     }
-    let mut limits: Vec<Limit> = Vec::new();
-    let mut colours = Vec::new();
-    for (level, level_colours) in levels.into_iter().rev() {
-        let first = limits.len() as u32;
-        limits.extend(level);
-        colours.extend(level_colours.into_iter().map(|colour| first + colour.start..first + colour.end));
+
+    /// Every limit along every strand, strand by strand, from single cells to the longest.
+    pub fn strand_limits(&self) -> impl Iterator<Item = Limit> {
+        let stretch = self.stretch();
+        self.strands.iter().flat_map(move |strand| {
+            let particles = &self.strand_particles[strand.particles.start as usize..strand.particles.end as usize];
+            (0..strand.level_count).flat_map(move |level| {
+                let reach = 1 << level;
+                particles.iter().zip(&particles[reach..]).zip(strand.lengths_from(level)..).map(move |((a, b), k)| {
+                    let max_length = self.strand_lengths[k as usize];
+                    Limit { ends: [*a.min(b), *a.max(b)], rest_length: max_length / stretch, max_length }
+                })
+            })
+        })
     }
-    (limits, colours)
 }
 
-fn level(stretches: &[Stretch], stretch: f32, particle_count: usize) -> (Vec<Limit>, Vec<Range<u32>>) {
-    let limit = |s: &Stretch| {
-        let rest_length = s.length as f32;
-        Limit { ends: s.ends, rest_length, max_length: stretch * rest_length }
+impl Strand {
+    /// Index in [`Model::strand_lengths`] of the first limit of a level: level k has one for every two particles that are 2^k edges
+    /// apart, after those of the levels below.
+    pub fn lengths_from(&self, level: u32) -> u32 {
+        let count = self.particles.end - self.particles.start;
+        self.lengths + level * count - ((1 << level) - 1)
+    }
+}
+
+/// A colour for each line: no two of a colour share a particle. Sides come first, and so warp and weft of a grid, then its diagonals.
+fn line_colours(lines: &[(&Line, usize)], particle_count: usize) -> Vec<u32> {
+    let mut used: Vec<Vec<u32>> = vec![Vec::new(); particle_count];
+    let colour = |(line, _): &(&Line, usize)| {
+        let is_free = |colour: &u32| line.particles.iter().all(|p| !used[*p as usize].contains(colour));
+        let colour = (0..).find(is_free).expect("there is no end of colours");
+        line.particles.iter().for_each(|p| used[*p as usize].push(colour));
+        colour
     };
-    let mut limits: Vec<Limit> = stretches.iter().map(limit).collect();
-    let pairs: Vec<Pair> = stretches.iter().map(|s| Pair { ends: s.ends, family: Some(s.family) }).collect();
-    let colours = sort_by_colour(&mut limits, &pairs, particle_count);
-    (limits, colours)
+    lines.iter().map(colour).collect()
 }
 
 /// For each particle of a convex panel the pins that hold it: of each group of neighbouring pins the nearest one, and of the groups

@@ -27,11 +27,19 @@ pub struct Model {
     pub limits: Vec<Limit>,
     /// Limits of each colour: no two of them share a particle.
     pub limit_colours: Vec<Range<u32>>,
-    /// Limits between particles that are 2, 4, 8… cells apart, sorted by level, the longest first, and inside a level by colour.
-    /// Empty unless the rule is [`Rule::Hierarchical`].
-    pub long_limits: Vec<Limit>,
-    /// Long limits of each colour: no two of them share a particle, all are of one level.
-    pub long_limit_colours: Vec<Range<u32>>,
+    /// Lines of cloth with limits along them, sorted by colour. Empty unless the rule is [`Rule::Hierarchical`].
+    pub strands: Vec<Strand>,
+    /// Strands of each colour: no two of them share a particle.
+    pub strand_colours: Vec<Range<u32>>,
+    /// The particles of all strands, one strand after the other.
+    pub strand_particles: Vec<u32>,
+    /// Maximum lengths [m] of the limits of all strands, strand by strand, level by level; as [`Limit::max_length`].
+    pub strand_lengths: Vec<f32>,
+    /// Limits of the structural and shear springs that lie on no strand, sorted by colour. Empty unless the rule is
+    /// [`Rule::Hierarchical`].
+    pub loose_limits: Vec<Limit>,
+    /// Loose limits of each colour: no two of them share a particle.
+    pub loose_limit_colours: Vec<Range<u32>>,
     /// For each particle the pins that hold it; shape [particle_count] rows. Empty rows unless the rule is [`Rule::Hierarchical`].
     pub attachments: Csr<Attachment>,
     /// Particles that a seam pulls together, sorted by colour. Empty once merged.
@@ -107,6 +115,18 @@ pub struct Limit {
     /// Maximum length [m]: (1 + threshold)·rest length; under [`Rule::Hierarchical`] a little less, so that what the sweeps leave
     /// of the excess stays under the threshold.
     pub max_length: f32,
+}
+
+/// A line of cloth that goes straight on from particle to particle, with limits on each of its edges and between particles that
+/// are 2, 4, 8… edges apart: level k has those of 2^k edges.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Strand {
+    /// Where its particles stand in [`Model::strand_particles`]: at most 512, none twice.
+    pub particles: Range<u32>,
+    /// Where its lengths begin in [`Model::strand_lengths`]; see [`Strand::lengths_from`].
+    pub lengths: u32,
+    /// Number of levels, at least 1.
+    pub level_count: u32,
 }
 
 /// A maximum distance of a particle from a pin.

@@ -37,7 +37,15 @@ pub struct Needs {
 
 impl Needs {
     /// What this model needs, with or without maps and sphere.
+    ///
+    /// # Panics
+    /// When the rule of the settings is hierarchical and that of the model is not.
     pub fn new(model: &Model, settings: &StepSettings, maps: Maps, sphere: bool) -> Self {
+        let hierarchical = Rule::Hierarchical;
+        assert!(
+            settings.rule != hierarchical || model.rule == hierarchical,
+            "a model has strands only when it was made for the hierarchical rule"
+        );
         let limits = !model.limits.is_empty();
         let rule = if limits && settings.sweeps > 0 { settings.rule } else { Rule::None };
         Self {

@@ -2,7 +2,8 @@
 
 use crate::flat_mesh::FlatMesh;
 use crate::geometry::{angle_range, corners, element_area, signed_area};
-use crate::long_limits::{attachments, long_limits};
+use crate::lines::Cloth;
+use crate::long_limits::attachments;
 use crate::outline::outlines;
 use crate::seams::seam_pairs;
 use crate::soften::step_wanted;
@@ -47,7 +48,7 @@ impl Model {
             quads: 0..model.quad_count(),
             worst_angle: 90.0,
         }];
-        model.add_long_limits(&flat);
+        model.add_flat_strands(&flat);
         if model.rule == Rule::Hierarchical {
             model.attachments = attachments(&flat, &model.inverse_masses, &pin_groups(sheet), model.stretch());
         }
@@ -91,7 +92,7 @@ impl Model {
         }
         let mut model = Self::from_flat(&flat, &places, quads, settings);
         model.panels = panels;
-        model.add_long_limits(&flat);
+        model.add_flat_strands(&flat);
         (model.holds, model.held_particles) = holds(garment, &edge_particles, &places);
         (model.seam_pairs, model.seam_names) = seam_pairs(garment, &edge_particles, &model.positions);
         let stiffness = SEAM_STIFFNESS * settings.fabric.structural_stiffness as f32;
@@ -137,13 +138,12 @@ impl Model {
         }
     }
 
-    /// Long limits of panels that are not sewn.
-    fn add_long_limits(&mut self, flat: &[DVec2]) {
+    /// Strands of panels that are not sewn.
+    fn add_flat_strands(&mut self, flat: &[DVec2]) {
         if self.rule == Rule::Hierarchical {
             let member_of: Vec<u32> = (0..flat.len() as u32).collect();
-            let cloth = self.cloth(flat, &member_of, flat.len());
-            let (limits, colours) = long_limits(&cloth, self.stretch());
-            (self.long_limits, self.long_limit_colours) = (limits, colours);
+            let quads = self.quads.clone();
+            self.add_strands(&Cloth::new(&quads, &self.panels, flat, &member_of, flat.len()));
         }
     }
 }

@@ -4,8 +4,7 @@ use crate::elements::{Side, sectors, sides};
 use crate::fan::opposite_neighbours;
 use crate::flat_mesh::smallest_first;
 use crate::geometry::corners;
-use crate::long_limits::long_limits;
-use crate::strands::Cloth;
+use crate::lines::Cloth;
 use crate::union_find::UnionFind;
 use crate::{Csr, Hold, Merge, Model, PanelMesh, Spring, SpringKind};
 use glam::{DVec2, DVec3};
@@ -46,8 +45,7 @@ impl Model {
         (model.quads, model.panels) = self.sewn_quads(&member_of);
         if self.rule == Rule::Hierarchical {
             let flat: Vec<DVec2> = self.flat.iter().map(|p| p.as_dvec2()).collect();
-            let cloth = self.cloth(&flat, &member_of, count);
-            (model.long_limits, model.long_limit_colours) = long_limits(&cloth, self.stretch());
+            model.add_strands(&Cloth::new(&self.quads, &self.panels, &flat, &member_of, count));
         }
         (model.complete(), merge)
     }
@@ -188,12 +186,6 @@ impl Model {
 }
 
 impl Model {
-    /// The flat panels of an open model, their particles as those of a cloth that they become.
-    pub(crate) fn cloth<'a>(&'a self, flat: &'a [DVec2], member_of: &'a [u32], particle_count: usize) -> Cloth<'a> {
-        let panels = self.panels.iter().zip(0..).flat_map(|(mesh, panel)| mesh.quads.clone().map(move |_| panel));
-        Cloth { elements: &self.quads, panels: panels.collect(), flat, member_of, particle_count }
-    }
-
     /// The holds with merged particles, each in the first hold that has it.
     fn sewn_holds(&self, member_of: &[u32]) -> (Vec<Hold>, Vec<u32>) {
         let mut taken = BTreeSet::new();

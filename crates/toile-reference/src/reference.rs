@@ -151,7 +151,7 @@ impl Reference {
         self.step += 1;
     }
 
-    /// One sweep over all limits, colour by colour; under the hierarchical rule from pins outward and from long limits to short ones.
+    /// One sweep over all limits, colour by colour; under the hierarchical rule from pins outward, then along strands.
     fn sweep_velocities(&mut self) {
         let Self { model, settings, particles, contacts, .. } = self;
         let contacts = (!contacts.is_empty()).then_some(contacts.as_slice());
@@ -160,24 +160,24 @@ impl Reference {
         }
         if settings.rule == Rule::Hierarchical {
             step::limit_attachments(particles, &model.attachments, settings.dt);
-            for colour in &model.long_limit_colours {
-                step::limit_predictive(particles, part(&model.long_limits, colour), settings.dt);
+            let (line, lengths) = (&model.strand_particles, &model.strand_lengths);
+            // Strands pull each other out of shape, so that they come twice.
+            for colour in model.strand_colours.iter().chain(&model.strand_colours) {
+                step::limit_strands(particles, part(&model.strands, colour), line, lengths, settings.dt);
             }
-            // Long limits leave kinks, so that the short ones come once more.
-            if !model.long_limits.is_empty() {
-                for colour in &model.limit_colours {
-                    step::limit_predictive(particles, part(&model.limits, colour), settings.dt);
-                }
+            for colour in &model.loose_limit_colours {
+                step::limit_predictive(particles, part(&model.loose_limits, colour), settings.dt);
             }
+            return;
         }
         for colour in &model.limit_colours {
             let limits = part(&model.limits, colour);
             match settings.rule {
-                Rule::None | Rule::Position => {}
+                Rule::None | Rule::Position | Rule::Hierarchical => {}
                 Rule::Zero => step::limit_zero(particles, limits),
                 Rule::Average => step::limit_average(particles, limits),
                 Rule::Directional => step::limit_directional(particles, limits, contacts, settings),
-                Rule::Predictive | Rule::Hierarchical => step::limit_predictive(particles, limits, settings.dt),
+                Rule::Predictive => step::limit_predictive(particles, limits, settings.dt),
             }
         }
     }

@@ -1,9 +1,9 @@
-//! Strands: lines of cloth that go straight on from particle to particle, across closed seams too.
+//! Lines of cloth that go straight on from particle to particle, across closed seams too.
 
 use crate::elements::{Side, sectors, sides};
 use crate::fan::opposite_neighbours;
 use crate::geometry::corners;
-use crate::{Csr, NO_CORNER};
+use crate::{Csr, NO_CORNER, PanelMesh};
 use glam::DVec2;
 
 /// A diagonal goes straight on where its direction changes by no more than the angle with this cosine [1].
@@ -25,29 +25,11 @@ pub(crate) struct Cloth<'a> {
     pub(crate) particle_count: usize,
 }
 
-/// A stretch of strand between two particles of the sewn cloth.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Stretch {
-    /// The two particles, the lower index first.
-    pub(crate) ends: [u32; 2],
-    /// Distance inside the flat panels [m], never less than the shortest one.
-    pub(crate) length: f64,
-    /// Direction on a grid, below [`crate::colouring::FAMILIES`].
-    pub(crate) family: u32,
-}
-
-/// All strands of one kind.
-pub(crate) struct Strands<'a> {
-    cloth: &'a Cloth<'a>,
-    /// Open sides of the elements of each panel, as flat particles.
-    rims: &'a Csr<[u32; 2]>,
-    /// Steps of one particle to the next: 2·k goes from the first end of edge k to the second, 2·k + 1 back.
-    next: Vec<u32>,
+/// All lines of one kind.
+pub(crate) struct Lines {
     edges: Vec<Edge>,
-    /// The part of a strand that starts with each step, as far as it has been followed.
-    parts: Vec<Option<Part>>,
-    /// Number of edges of each part.
-    cells: u32,
+    /// Where each step goes on: step 2·k leads along edge k from its first end to its second, step 2·k + 1 back.
+    next: Vec<u32>,
 }
 
 #[derive(Clone, Copy)]
@@ -58,19 +40,30 @@ struct Edge {
     flat_ends: [u32; 2],
     /// `None` where two panels share it.
     panel: Option<u32>,
+    /// Flat length [m].
     length: f64,
-    family: Option<u32>,
 }
 
-#[derive(Clone, Copy)]
-struct Part {
-    last: u32,
-    length: f64,
-    /// The one panel that it runs in.
-    panel: Option<u32>,
+/// A part of a line, on which no particle comes twice.
+pub(crate) struct Line {
+    /// Particles of the sewn cloth, one after the other.
+    pub(crate) particles: Vec<u32>,
+    steps: Vec<Edge>,
 }
 
-impl Cloth<'_> {
+impl<'a> Cloth<'a> {
+    /// The panels of an open model, and the particles of the cloth that theirs become.
+    pub(crate) fn new(
+        elements: &'a [[u32; 4]],
+        panels: &[PanelMesh],
+        flat: &'a [DVec2],
+        member_of: &'a [u32],
+        particle_count: usize,
+    ) -> Self {
+        let panels = panels.iter().zip(0..).flat_map(|(mesh, panel)| mesh.quads.clone().map(move |_| panel)).collect();
+        Self { elements, panels, flat, member_of, particle_count }
+    }
+
     /// Open sides of the elements of each panel, as flat particles.
     pub(crate) fn rims(&self) -> Csr<[u32; 2]> {
         let panel_count = self.panels.iter().max().map_or(0, |last| last + 1);
@@ -83,8 +76,8 @@ impl Cloth<'_> {
         Csr::from_rows(rows)
     }
 
-    /// The strands along the sides of the elements: on a grid warp and weft.
-    pub(crate) fn side_strands<'a>(&'a self, rims: &'a Csr<[u32; 2]>) -> Strands<'a> {
+    /// The lines along the sides of the elements: on a grid warp and weft.
+    pub(crate) fn side_lines(&self) -> Lines {
         let sides = sides(self.elements, |i| self.member_of[i as usize]);
         let edges: Vec<Edge> = sides.chunk_by(|a, b| a.ends == b.ends).map(|group| self.edge(group)).collect();
         let step = |from: u32, to: u32| {
@@ -100,7 +93,7 @@ impl Cloth<'_> {
                 next[step(b, particle) as usize] = step(particle, a);
             }
         }
-        Strands::new(self, rims, edges, next)
+        Lines { next, edges }
     }
 
     /// The side that elements share; of two lengths the shorter one rules, as for springs.
@@ -123,22 +116,21 @@ impl Cloth<'_> {
             flat_ends: flat_ends(&group[0]),
             panel: group.iter().all(|side| panel(side) == first).then_some(first),
             length: group.iter().map(length).fold(f64::INFINITY, f64::min),
-            family: None,
         }
     }
 
-    /// The strands along the diagonals of the quads; they end at seams.
-    pub(crate) fn diagonal_strands<'a>(&'a self, rims: &'a Csr<[u32; 2]>) -> Strands<'a> {
+    /// The lines along the diagonals of the quads; they end at seams.
+    pub(crate) fn diagonal_lines(&self) -> Lines {
         let mut edges = Vec::new();
         for (element, panel) in self.elements.iter().zip(&self.panels) {
             let &[a, b, c, d] = element;
             if d == NO_CORNER {
                 continue;
             }
-            for (flat_ends, family) in [([a, c], 3), ([b, d], 2)] {
+            for flat_ends in [[a, c], [b, d]] {
                 let ends = flat_ends.map(|i| self.member_of[i as usize]);
                 let [p, q] = flat_ends.map(|i| self.flat[i as usize]);
-                edges.push(Edge { ends, flat_ends, panel: Some(*panel), length: p.distance(q), family: Some(family) });
+                edges.push(Edge { ends, flat_ends, panel: Some(*panel), length: p.distance(q) });
             }
         }
         let mut leaving = vec![Vec::new(); self.flat.len()];
@@ -162,72 +154,70 @@ impl Cloth<'_> {
                 }
             }
         }
-        Strands::new(self, rims, edges, next)
+        Lines { next, edges }
     }
 }
 
-impl<'a> Strands<'a> {
-    fn new(cloth: &'a Cloth<'a>, rims: &'a Csr<[u32; 2]>, edges: Vec<Edge>, next: Vec<u32>) -> Self {
-        let steps = 0..2 * edges.len() as u32;
-        let part = |step: u32| {
-            let edge = &edges[step as usize / 2];
-            Some(Part { last: step, length: edge.length, panel: edge.panel })
-        };
-        Self { cloth, rims, next, parts: steps.map(part).collect(), edges, cells: 1 }
-    }
-
-    /// Follows every strand to twice as many edges as before, and gives the stretches that long, each once, by their ends.
-    pub(crate) fn doubled(&mut self) -> Vec<Stretch> {
-        let follow = |part: &Option<Part>| {
-            let part = (*part)?;
-            let next = self.next[part.last as usize];
-            let more = if next == NONE { None } else { self.parts[next as usize] }?;
-            let panel = part.panel.filter(|panel| more.panel == Some(*panel));
-            Some(Part { last: more.last, length: part.length + more.length, panel })
-        };
-        self.parts = self.parts.iter().map(follow).collect();
-        self.cells *= 2;
-        let parts = self.parts.iter().zip(0..);
-        let mut stretches: Vec<Stretch> = parts.filter_map(|(part, first)| self.stretch(first, (*part)?)).collect();
-        stretches.sort_unstable_by(|a, b| a.ends.cmp(&b.ends).then(a.length.total_cmp(&b.length)));
-        stretches.dedup_by_key(|stretch| stretch.ends);
-        stretches
-    }
-
-    /// Tail and head of the way from one step to another, among the particles of the cloth and among those of the panels.
-    fn way(&self, first: u32, last: u32) -> [[u32; 2]; 2] {
-        let [tail, head] = [(first, first % 2), (last, 1 - last % 2)].map(|(step, end)| {
-            let edge = &self.edges[step as usize / 2];
-            [edge.ends[end as usize], edge.flat_ends[end as usize]]
-        });
-        [[tail[0], head[0]], [tail[1], head[1]]]
-    }
-
-    fn stretch(&self, first: u32, part: Part) -> Option<Stretch> {
-        let [ends, flat_ends] = self.way(first, part.last);
-        if ends[0] >= ends[1] {
-            return None;
+impl Lines {
+    /// The lines, cut where a particle would come again and where they have so many particles. Every edge is in just one.
+    pub(crate) fn cut(&self, particles_max: usize) -> Vec<Line> {
+        let mut used = vec![false; self.edges.len()];
+        let mut lines = Vec::new();
+        let begins = |step: &u32| self.next[*step as usize ^ 1] == NONE;
+        let steps = 0..2 * self.edges.len() as u32;
+        // A ring has no step that begins it: it is taken last, from its first edge on.
+        for first in steps.clone().filter(begins).chain(steps) {
+            let mut here = first;
+            let mut line: Option<Line> = None;
+            while here != NONE && !std::mem::replace(&mut used[here as usize / 2], true) {
+                let edge = self.towards(here);
+                let [from, to] = edge.ends;
+                let open = line.take_if(|line| line.particles.len() == particles_max || line.particles.contains(&to));
+                lines.extend(open);
+                let line = line.get_or_insert_with(|| Line { particles: vec![from], steps: Vec::new() });
+                line.particles.push(to);
+                line.steps.push(edge);
+                here = self.next[here as usize];
+            }
+            lines.extend(line);
         }
-        let chord = part.panel.map(|panel| (panel, flat_ends.map(|i| self.cloth.flat[i as usize])));
-        let length = match chord {
-            Some((panel, [a, b])) if self.is_inside(panel, [a, b], part.length) => a.distance(b),
-            _ => part.length,
-        };
-        // Particles are numbered row by row.
-        let along_row = ends[1] - ends[0] == self.cells;
-        let family = self.edges[first as usize / 2].family.unwrap_or(u32::from(!along_row));
-        Some(Stretch { ends, length, family })
+        lines
+    }
+
+    /// The edge of a step, its ends in the direction of the step.
+    fn towards(&self, step: u32) -> Edge {
+        let mut edge = self.edges[step as usize / 2];
+        if !step.is_multiple_of(2) {
+            edge.ends.reverse();
+            edge.flat_ends.reverse();
+        }
+        edge
+    }
+}
+
+impl Cloth<'_> {
+    /// Distances [m] inside the flat panels between particles of a line that are so many edges apart, never less than the shortest.
+    pub(crate) fn lengths(&self, line: &Line, cells: usize, rims: &Csr<[u32; 2]>) -> Vec<f64> {
+        line.steps.windows(cells).map(|steps| self.length(steps, rims)).collect()
+    }
+
+    fn length(&self, steps: &[Edge], rims: &Csr<[u32; 2]>) -> f64 {
+        let way: f64 = steps.iter().map(|edge| edge.length).sum();
+        let panel = steps[0].panel.filter(|panel| steps.iter().all(|edge| edge.panel == Some(*panel)));
+        let Some(panel) = panel else { return way };
+        let [a, b] = [steps[0].flat_ends[0], steps[steps.len() - 1].flat_ends[1]].map(|i| self.flat[i as usize]);
+        if self.is_inside(panel, [a, b], way, rims) { a.distance(b) } else { way }
     }
 
     /// Whether the straight line between two points of a panel stays inside, when a way of so many metres does.
-    fn is_inside(&self, panel: u32, [a, b]: [DVec2; 2], way: f64) -> bool {
+    fn is_inside(&self, panel: u32, [a, b]: [DVec2; 2], way: f64, rims: &Csr<[u32; 2]>) -> bool {
         if way <= a.distance(b) * (1.0 + 1e-9) {
             return true;
         }
         let middle = a.midpoint(b);
         let mut crossings = 0;
-        for ends in self.rims.row(panel as usize) {
-            let [p, q] = ends.map(|i| self.cloth.flat[i as usize]);
+        for ends in rims.row(panel as usize) {
+            let [p, q] = ends.map(|i| self.flat[i as usize]);
             let side = |u: DVec2, v: DVec2, w: DVec2| (v - u).perp_dot(w - u);
             let crosses = side(a, b, p) * side(a, b, q) < 0.0 && side(p, q, a) * side(p, q, b) < 0.0;
             if crosses {
