@@ -175,6 +175,11 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
             };
             see("is at rest", before.limits.iter().filter(at_rest).count());
         }
+        Kernel::LongestLimit => {
+            let longest = after.status.longest_limit;
+            see("is the longest", usize::from(longest > 0));
+            see("is not the longest", before.limits.len() - 1);
+        }
         Kernel::SeamStatus => {
             let gaps = before.seam_pairs.iter().map(|s| s.ends.map(|end| positions[end as usize]));
             see("is no number", gaps.filter(|[a, b]| (*b - *a).is_nan()).count());

@@ -102,6 +102,10 @@ pub fn reference(kernel: Kernel, input: &mut Input) {
             input.status.elongation_max = status.elongation_max.to_bits();
             input.status.over_long_count = status.over_long_count;
         }
+        Kernel::LongestLimit => {
+            let longest = frame::longest_limit(&particles.positions, &before.limits);
+            input.status.longest_limit = longest.map_or(0, |index| u32::MAX - index);
+        }
         Kernel::SeamStatus => {
             input.status.seam_gap_max = frame::seam_status(&particles.positions, &before.seam_pairs).to_bits();
         }

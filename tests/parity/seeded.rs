@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use toile_gpu::Surface;
 use toile_kernels::{Domain, Kernel, TABLE};
 use toile_model::{Attachment, Csr, Hold, Limit, Link, MapFrame, Model, NO_CORNER, SeamPair, StepSettings, Strand};
-use toile_reference::{Ball, Contact, Lag, Midpoints, Particles, Probe};
+use toile_reference::{Ball, Contact, Lag, Midpoints, Particles, Probe, frame};
 use toile_scene::{Displacement, Friction, Influence, Morphs, Pose, Skin, Wind};
 use toile_workspace::{Layers, Random, box_mesh, gpu, settings, uv_sphere};
 
@@ -105,6 +105,10 @@ pub fn input(kernel: Kernel, items: u32, variant: Variant) -> Input {
     input.copies.positions.fill(Vec3::ZERO);
     input.copies.velocities.fill(Vec3::ZERO);
     place_at_the_edges(random, &mut input);
+    if kernel == Kernel::LongestLimit {
+        let status = frame::limit_status(&input.particles.positions, &input.limits, input.settings.threshold);
+        input.status.elongation_max = status.elongation_max.to_bits();
+    }
     carry_by_the_wind(&mut input);
     input
 }

@@ -1,11 +1,9 @@
 // The largest elongation, and how many structural and shear springs are over-long.
 #import shared/item
 #import shared/status
-#import shared/limit
+#import shared/elongation
 #import shared/step_params
 
-@group(0) @binding(2) var<storage, read> limits: array<Limit>;
-@group(0) @binding(3) var<storage, read> positions: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read_write> status: Status;
 
 @compute @workgroup_size(64)
@@ -14,9 +12,7 @@ fn limit_status(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workg
     if i >= step.limit_count {
         return;
     }
-    let limit = limits[i];
-    let current_length = length(positions[limit.second].xyz - positions[limit.first].xyz);
-    let elongation = current_length / limit.rest_length - 1.0;
+    let elongation = elongation_of(i);
     if elongation > 0.0 {
         atomicMax(&status.elongation_max, bitcast<u32>(elongation));
     }

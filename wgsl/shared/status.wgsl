@@ -6,6 +6,7 @@ struct Status {
     speed_max: atomic<u32>,             // bits [m/s]
     elongation_max: atomic<u32>,        // bits
     over_long_count: atomic<u32>,
+    longest_limit: atomic<u32>,         // 0xffffffff minus its index; 0: none
     seam_gap_max: atomic<u32>,          // bits [m]
     kinetic_energy: f32,                // [J]
 }

@@ -90,6 +90,7 @@ fn decode(raw: &structs::Status, step: u64) -> Status {
         kinetic_energy: raw.kinetic_energy,
         elongation_max: f32::from_bits(raw.elongation_max),
         over_long_count: raw.over_long_count,
+        longest_limit: (raw.longest_limit > 0).then(|| u32::MAX - raw.longest_limit),
         seam_gap_max: f32::from_bits(raw.seam_gap_max),
     }
 }

@@ -9,6 +9,7 @@ macro_rules! shared {
 const SHARED: &[(&str, &str)] = &shared![
     "attachment",
     "contact",
+    "elongation",
     "item",
     "limit",
     "map_frame",

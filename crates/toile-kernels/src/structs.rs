@@ -263,6 +263,8 @@ pub struct Status {
     pub elongation_max: u32,
     /// Limits that are exceeded.
     pub over_long_count: u32,
+    /// `u32::MAX` minus the index of the limit that is exceeded the most; 0: none.
+    pub longest_limit: u32,
     /// Bits of the largest seam gap [m].
     pub seam_gap_max: u32,
     /// Kinetic energy [J].

@@ -191,6 +191,8 @@ kernels! {
     TotalEnergy "frame" "total_energy" Frame Workgroup Nothing;
     /// Elongation.
     LimitStatus "frame" "limit_status" Frame Limit Limits;
+    /// Where it is largest.
+    LongestLimit "frame" "longest_limit" Frame Limit Limits;
     /// Seam gap.
     SeamStatus "frame" "seam_status" Frame SeamPair Seams;
     /// From the open to the sewn model.

@@ -17,6 +17,8 @@ pub struct Status {
     pub elongation_max: f32,
     /// Number of structural and shear springs whose elongation is above the threshold.
     pub over_long_count: u32,
+    /// The spring with the largest elongation, as an index into [`Model::limits`](crate::Model::limits).
+    pub longest_limit: Option<u32>,
     /// Largest distance between two particles of a seam pair [m]; 0 without open seams.
     pub seam_gap_max: f32,
 }

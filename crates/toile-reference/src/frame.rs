@@ -1,6 +1,7 @@
 //! The kernels that run once per frame, and those of the handover.
 
 mod limit_status;
+mod longest_limit;
 mod merge_particles;
 mod particle_normals;
 mod particle_status;
@@ -9,6 +10,7 @@ mod state_copy;
 mod total_energy;
 
 pub use limit_status::{LimitStatus, limit_status};
+pub use longest_limit::longest_limit;
 pub use merge_particles::merge_particles;
 pub use particle_normals::particle_normals;
 pub use particle_status::{ParticleStatus, particle_status};

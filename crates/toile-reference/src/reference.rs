@@ -223,6 +223,7 @@ impl Reference {
             kinetic_energy: frame::total_energy(&particles.energy_partials),
             elongation_max: limits.elongation_max,
             over_long_count: limits.over_long_count,
+            longest_limit: frame::longest_limit(&self.particles.positions, &self.model.limits),
             seam_gap_max: frame::seam_status(&self.particles.positions, &self.model.seam_pairs),
         }
     }

@@ -7,11 +7,13 @@ mod error;
 mod frame;
 mod outfit;
 mod simulation;
+mod strain;
 
 pub use error::Error;
 pub use frame::Frame;
 pub use outfit::{MovingFrame, Outfit};
 pub use simulation::{Colliders, Simulation};
+pub use strain::Strain;
 pub use toile_files as files;
 pub use toile_gpu as gpu;
 pub use toile_model as model;

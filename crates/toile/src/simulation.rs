@@ -1,6 +1,6 @@
 //! One cloth, simulated on the caller's device.
 
-use crate::{Error, Frame};
+use crate::{Error, Frame, Strain};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use toile_gpu::{BodyMaps, Kernel, PassTime, Plan, Solver, Timer};
@@ -136,6 +136,22 @@ impl Simulation {
             return Err(Error::Diverged { step, particle, count });
         }
         Ok(status)
+    }
+
+    /// How far the cloth was stretched at the end of the newest frame whose status has arrived, without waiting; `None` before the
+    /// first frame is done.
+    ///
+    /// # Errors
+    /// [`Error::Diverged`] when a particle is not finite.
+    pub fn strain(&mut self) -> Result<Option<Strain>, Error> {
+        let threshold = self.settings().threshold;
+        Ok(self.status()?.map(|status| Strain {
+            step: status.step,
+            elongation_max: status.elongation_max,
+            longest_limit: status.longest_limit,
+            over_long_count: status.over_long_count,
+            threshold,
+        }))
     }
 
     /// Does one step pass by pass and says what each kernel cost, beside a copy of the whole state: the unit in which costs are

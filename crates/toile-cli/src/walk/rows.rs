@@ -42,6 +42,12 @@ pub struct FrameRow {
     pub time_s: f64,
     /// Largest elongation of a structural or shear spring [1].
     pub elongation_max: f64,
+    /// The two particles of the spring that has it.
+    pub longest_spring: Option<[u32; 2]>,
+    /// The region of the body that is nearest to it.
+    pub longest_region: Option<String>,
+    /// Number of springs whose elongation is above the threshold.
+    pub over_long_count: u32,
     /// 99th percentile of it, of the garment where it is largest [1].
     pub elongation_p99: f64,
     /// Deepest particle below the exact surface of the body [mm], negative when all are outside.
@@ -102,7 +108,13 @@ impl FrameRow {
             a.distance(b) / f64::from(limit.rest_length) - 1.0
         };
         let [max, p99] = max_and_p99(model.limits.iter().map(elongation).collect()).unwrap_or_default();
-        self.elongation_max = self.elongation_max.max(max);
+        self.over_long_count += status.over_long_count;
+        if max > self.elongation_max {
+            self.elongation_max = max;
+            self.longest_spring = status.longest_limit.map(|longest| model.limits[longest as usize].ends);
+            let place = self.longest_spring.map(|[end, _]| positions[end as usize].as_dvec3());
+            self.longest_region = place.map(|place| regions.nearest(body, place).to_owned());
+        }
         self.elongation_p99 = self.elongation_p99.max(p99);
         let depths: Vec<f64> = positions.iter().map(|p| exact.penetration(p.as_dvec3())).collect();
         let reach = thickness + 2.0 * f64::from(texel);

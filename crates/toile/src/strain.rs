@@ -1,0 +1,16 @@
+//! How far a cloth is stretched.
+
+/// How far a cloth is stretched at the end of a frame: measured on the device over every structural and shear spring.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Strain {
+    /// Steps done at the end of that frame.
+    pub step: u64,
+    /// Largest elongation [1]; 0 when no spring is longer than its rest length.
+    pub elongation_max: f32,
+    /// The spring that has it, as an index into [`Model::limits`](toile_model::Model::limits), which names its particles.
+    pub longest_limit: Option<u32>,
+    /// Number of springs whose elongation is above the threshold.
+    pub over_long_count: u32,
+    /// Elongation that the fabric allows [1].
+    pub threshold: f32,
+}
