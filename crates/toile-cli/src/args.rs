@@ -1,6 +1,7 @@
 //! What the user types.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use glam::DVec3;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
@@ -110,6 +111,9 @@ pub struct Walk {
     /// Frames per second.
     #[arg(long, value_name = "RATE", default_value = "30", value_parser = parse_rate)]
     pub fps: f64,
+    /// Velocity of the air [m/s]; without it there is no air. Garments are dressed without it.
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse_velocity, allow_hyphen_values = true)]
+    pub wind: Option<DVec3>,
     /// Draw the maps of a clip that repeats once, and keep them: faster frames for more memory.
     #[arg(long)]
     pub precompute_maps: bool,
@@ -226,6 +230,14 @@ fn parse_texel(text: &str) -> Result<f64, String> {
 }
 
 /// A length such as 1cm, 5mm or 0.01m, in metres.
+fn parse_velocity(text: &str) -> Result<DVec3, String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[x, y, z]) if [x, y, z].iter().all(|v| v.abs() <= 100.0) => Ok(DVec3::new(x, y, z)),
+        _ => Err("it must be three numbers of at most 100 m/s, as 0,0,-3".to_owned()),
+    }
+}
+
 fn parse_length(text: &str, allowed: RangeInclusive<f64>) -> Result<f64, String> {
     let split = text.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(text.len());
     let (number, unit) = text.split_at(split);
@@ -297,6 +309,10 @@ mod tests {
         assert_eq!(parse_time("0.5"), Ok(0.5));
         for wrong in ["-1", "nan", "inf", "soon"] {
             assert!(parse_time(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(parse_velocity("0, -1.5,3"), Ok(DVec3::new(0.0, -1.5, 3.0)));
+        for wrong in ["1,2", "1,2,3,4", "0,nan,0", "0,0,200", "north"] {
+            assert!(parse_velocity(wrong).is_err(), "{wrong}");
         }
     }
 

@@ -13,9 +13,10 @@ mod soup;
 #[cfg(test)]
 mod tests;
 
-pub use file::{save_gif, save_png, strip};
+pub use file::{save_gif, save_png, stack, strip};
 
 use camera::Camera;
+use glam::Vec3;
 use image::RgbImage;
 use light::Studio;
 use soup::Soup;
@@ -132,8 +133,24 @@ const BAND_ROWS: usize = 32;
 /// # Panics
 /// When `height` is 0, a mesh has not one normal per vertex, or a triangle names a vertex that does not exist.
 pub fn render(drawn: &[Drawn], view: View, height: u32) -> Result<RgbImage, PictureError> {
+    render_framed(drawn, None, view, height)
+}
+
+/// A picture of what stands in a box [m], given by its smallest and largest corner, whose floor is that of the picture: pictures of
+/// boxes of one size have the same scale and size.
+///
+/// # Errors
+/// As [`render`].
+///
+/// # Panics
+/// As [`render`].
+pub fn render_in(drawn: &[Drawn], stage: [Vec3; 2], view: View, height: u32) -> Result<RgbImage, PictureError> {
+    render_framed(drawn, Some(stage), view, height)
+}
+
+fn render_framed(drawn: &[Drawn], stage: Option<[Vec3; 2]>, view: View, height: u32) -> Result<RgbImage, PictureError> {
     assert!(height > 0, "a picture has at least one row");
-    let soup = Soup::new(drawn)?;
+    let soup = Soup::new(drawn, stage)?;
     let camera = Camera::new(&soup, view, height as usize);
     let studio = Studio::new(&soup, &camera);
     let corners: Vec<_> = soup.positions.iter().map(|p| camera.samples.project(*p)).collect();

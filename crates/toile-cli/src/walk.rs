@@ -3,6 +3,7 @@
 mod regions;
 mod rows;
 mod saved;
+mod stage;
 
 use crate::adapter::{self, Gpu};
 use crate::args::{Backend, Running};
@@ -14,21 +15,25 @@ use crate::picture::{self, Drawn, Material, View};
 use crate::worn::{self, Surroundings};
 use anyhow::{Context, Result, bail};
 use glam::Vec3;
+use image::RgbImage;
 use indicatif::{ProgressBar, ProgressStyle};
 use regions::Regions;
 use rows::{FrameRow, WalkMetrics};
 use saved::{GarmentState, Saved};
+use stage::Stage;
 use std::path::Path;
 use std::time::Instant;
 use toile::Outfit;
 use toile::files::{MovingFaces, write_atomically, write_pc2, write_usda};
-use toile::gpu::readback;
+use toile::gpu::{Kernel, Timer, readback};
 use toile::model::{Model, StepSettings};
 use toile::scene::{Garment, Mesh, MovingMesh, Settings};
 use toile_reference::ExactDistance;
 
 /// Maps are drawn so often at least [1/s]; in between, surfaces go straight on by the velocity map.
 const MAP_RATE: f64 = 60.0;
+/// Frames in the strip.
+const STRIP_COUNT: u32 = 6;
 /// Height of the pictures [px].
 const PICTURE_HEIGHT: u32 = 480;
 
@@ -71,10 +76,10 @@ pub fn walk(walk: &Walk, running: &Running) -> Result<()> {
     if saved.frame_count() == 0 {
         saved.write(0, &dress(walk, &computer, running.quiet)?, None)?;
     }
-    simulate(walk, gpu, &walkers, &saved, running)?;
+    let collision_part = simulate(walk, gpu, &walkers, &saved, running)?;
     let rows = saved.rows(walk.frame_count)?;
     finish(walk, &walkers, &saved, running)?;
-    let metrics = WalkMetrics::new(&gpu.name, &walk.settings, &walkers, rows);
+    let metrics = WalkMetrics::new(&gpu.name, &walk.settings, &walkers, collision_part, rows);
     let text = serde_json::to_string_pretty(&metrics)?;
     write_atomically(&running.out.join("metrics.json"), text.as_bytes())?;
     saved.remove()?;
@@ -108,7 +113,8 @@ fn dress(walk: &Walk, computer: &Computer, quiet: bool) -> Result<Vec<GarmentSta
     Ok(states)
 }
 
-fn simulate(walk: &Walk, gpu: &Gpu, walkers: &[Walker], saved: &Saved, running: &Running) -> Result<()> {
+/// Walks, frame by frame, and says which part of a step goes to the bodies.
+fn simulate(walk: &Walk, gpu: &Gpu, walkers: &[Walker], saved: &Saved, running: &Running) -> Result<f64> {
     let seconds = 1.0 / walk.settings.frame_rate;
     let steps = walkers[0].settings.steps_per_frame;
     let maps_per_frame = maps_per_frame(steps, walk.settings.frame_rate);
@@ -138,6 +144,8 @@ fn simulate(walk: &Walk, gpu: &Gpu, walkers: &[Walker], saved: &Saved, running: 
         state.upload(gpu, simulation, &walker.model)?;
     }
     let regions = Regions::new(&walk.body);
+    let stage = Stage::new(&walk.body, f64::from(walk.frame_count) * seconds);
+    std::fs::create_dir_all(&running.out)?;
     let progress = progress(walk.frame_count, done, running.quiet);
     for frame in done + 1..=walk.frame_count {
         interrupt::check().context("interrupted: every frame so far is kept, go on with --resume")?;
@@ -167,13 +175,33 @@ fn simulate(walk: &Walk, gpu: &Gpu, walkers: &[Walker], saved: &Saved, running: 
             cloths.push(Mesh { positions: state.positions(), normals, triangles: walker.triangles.clone() });
             states.push(state);
         }
-        draw(&running.out, frame, &body, &cloths)?;
+        let views = draw(&body, &cloths, stage.at(f64::from(frame) * seconds))?;
+        picture::save_png(&picture_path(&running.out, frame), &picture::strip(&views))?;
         row.output_ms = 1e3 * output.elapsed().as_secs_f64();
         saved.write(frame, &states, Some(&row))?;
         progress.inc(1);
     }
     progress.finish();
-    Ok(())
+    collision_part(gpu, &mut outfit)
+}
+
+/// Which part of one more step of every garment goes to the bodies [1]: each pass is timed alone.
+fn collision_part(gpu: &Gpu, outfit: &mut Outfit) -> Result<f64> {
+    let timer = Timer::new(&gpu.device, &gpu.queue)?;
+    let [mut whole, mut collision] = [0.0; 2];
+    for simulation in outfit.garments_mut() {
+        for (kernel, time) in simulation.time_step(&gpu.device, &gpu.queue, &timer)? {
+            match kernel {
+                Kernel::StateCopy => continue,
+                Kernel::Reaction | Kernel::QuadMidpoints | Kernel::SampleMovingMaps | Kernel::Collide => {
+                    collision += time.milliseconds;
+                }
+                _ => {}
+            }
+            whole += time.milliseconds;
+        }
+    }
+    Ok(if whole > 0.0 { collision / whole } else { 0.0 })
 }
 
 /// How often the maps are drawn in a frame: at least at the map rate, and so that the steps divide evenly.
@@ -203,18 +231,38 @@ fn progress(frame_count: u32, done: u32, quiet: bool) -> ProgressBar {
     bar
 }
 
-/// Two views side by side.
-fn draw(folder: &Path, frame: u32, body: &Mesh, cloths: &[Mesh]) -> Result<()> {
+/// The two views of a frame.
+fn draw(body: &Mesh, cloths: &[Mesh], stage: [Vec3; 2]) -> Result<Vec<RgbImage>> {
     let mut drawn = vec![Drawn { mesh: body, material: Material::SKIN }];
     drawn.extend(cloths.iter().enumerate().map(|(i, mesh)| Drawn { mesh, material: Material::cloth(i) }));
-    let views = [View::ThreeQuarter, View::Side].map(|view| picture::render(&drawn, view, PICTURE_HEIGHT));
-    let views = views.into_iter().collect::<Result<Vec<_>, _>>()?;
-    std::fs::create_dir_all(folder)?;
-    Ok(picture::save_png(&picture_path(folder, frame), &picture::strip(&views))?)
+    let views = [View::ThreeQuarter, View::Side].map(|view| picture::render_in(&drawn, stage, view, PICTURE_HEIGHT));
+    Ok(views.into_iter().collect::<Result<Vec<_>, _>>()?)
 }
 
 fn picture_path(folder: &Path, frame: u32) -> std::path::PathBuf {
     folder.join(format!("frame_{frame:04}.png"))
+}
+
+/// Draws some frames side by side, the first view above the second.
+fn draw_strip(walk: &Walk, walkers: &[Walker], saved: &Saved, folder: &Path) -> Result<()> {
+    let seconds = 1.0 / walk.settings.frame_rate;
+    let stage = Stage::new(&walk.body, f64::from(walk.frame_count) * seconds);
+    let count = STRIP_COUNT.min(walk.frame_count);
+    let mut views = [Vec::new(), Vec::new()];
+    for index in 1..=count {
+        let frame = index * walk.frame_count / count;
+        let time = f64::from(frame) * seconds;
+        let cloth = |(mesh, walker): (usize, &Walker)| -> Result<Mesh> {
+            let positions = saved.positions(frame, mesh)?;
+            let mut mesh = Mesh { positions, normals: Vec::new(), triangles: walker.triangles.clone() };
+            mesh.normals = mesh.area_weighted_normals();
+            Ok(mesh)
+        };
+        let cloths = walkers.iter().enumerate().map(cloth).collect::<Result<Vec<_>>>()?;
+        let drawn = draw(&walk.body.at(time), &cloths, stage.at(time))?;
+        views.iter_mut().zip(drawn).for_each(|(row, view)| row.push(view));
+    }
+    Ok(picture::save_png(&folder.join("walk.png"), &picture::stack(&views.map(|row| picture::strip(&row))))?)
 }
 
 /// Writes the motion and the moving picture from what was saved of each frame.
@@ -236,6 +284,7 @@ fn finish(walk: &Walk, walkers: &[Walker], saved: &Saved, running: &Running) -> 
         let path = running.out.join(format!("{index}_{}.pc2", walker.name));
         write_pc2(&path, walker.model.positions.len(), count, |frame| saved.positions(frame as u32, index))?;
     }
+    draw_strip(walk, walkers, saved, &running.out)?;
     let frames = (1..=walk.frame_count).map(|frame| picture_path(&running.out, frame));
     picture::save_gif(&running.out.join("walk.gif"), frames, rate)?;
     Ok(())

@@ -365,11 +365,14 @@ fn an_interrupted_walk_goes_on_bit_for_bit() {
     assert!(refused(walk("whole", &["--resume"]).output().expect("it runs")).contains("no unfinished walk"));
 
     good(walk("halves", &["--resume"]).output().expect("the program runs"));
-    for file in ["walk.usda", "0_skirt.pc2", "walk.gif", "frame_0006.png"] {
+    for file in ["walk.usda", "0_skirt.pc2", "walk.gif", "walk.png", "frame_0006.png"] {
         let [whole, halves] = ["whole", "halves"].map(|folder| fs::read(journey.folder.path().join(folder).join(file)));
         assert!(whole.expect("it was written") == halves.expect("it was written"), "{file} differs");
     }
     let metrics = journey.metrics("whole");
+    let [collision, simulation] =
+        ["collision_ms_median", "simulation_ms_median"].map(|key| metrics[key].as_f64().expect("a number"));
+    assert!(0.0 < collision && collision < simulation, "{collision} of {simulation} ms");
     let frames = list(&metrics["frames"]);
     assert_eq!(frames.len(), 6);
     for row in frames {
@@ -377,7 +380,7 @@ fn an_interrupted_walk_goes_on_bit_for_bit() {
         assert!(row["penetration_max_mm"].as_f64().is_some_and(|depth| depth < 10.0), "{row}");
         assert!(row["penetration_p99_mm"].as_f64().is_some_and(|depth| depth < 2.0), "{row}");
     }
-    assert_eq!(journey.names("whole").len(), 10, "six frames, a GIF, USD, PC2 and metrics");
+    assert_eq!(journey.names("whole").len(), 11, "six frames, a strip, a GIF, USD, PC2 and metrics");
 }
 
 #[test]
@@ -396,4 +399,24 @@ fn every_rule_is_shown_and_the_default_holds_where_others_run_away() {
     let garment = fixture("garments/skirt.json");
     fs::write(journey.folder.path().join("g.toml"), format!("[[garment]]\nfile = {garment:?}\n")).expect("written");
     assert!(refused(journey.run(&["rules", "g.toml"])).contains("not one sheet"));
+}
+
+#[test]
+fn an_outfit_walks_together() {
+    let journey = Journey::new();
+    let [skirt, shirt] = ["skirt", "shirt_sleeveless"].map(|name| fixture(&format!("garments/{name}.json")));
+    let garments = ["--garment", &skirt, "--garment", &shirt, "--spacing", "4cm", "--texel", "1cm"];
+    let walk = ["walk", "--clip", "apose_to_walk", "--seconds", "0.2", "--fps", "30", "--wind", "0,0,-2", "--json"];
+    let metrics = json(&good(journey.run(&[&walk[..], &garments[..]].concat())));
+    assert_eq!(metrics["garments"], serde_json::json!(["skirt", "shirt_sleeveless"]));
+    for row in list(&metrics["frames"]) {
+        assert_eq!(row["non_finite_count"], 0);
+        assert!(row["elongation_p99"].as_f64().is_some_and(|p99| p99 < 0.06), "{row}");
+        assert!(row["penetration_max_mm"].as_f64().is_some_and(|depth| depth < 10.0), "{row}");
+        assert!(row["penetration_p99_mm"].as_f64().is_some_and(|depth| depth < 2.0), "{row}");
+    }
+    let points = |file: &str| fs::metadata(journey.folder.path().join("out").join(file)).expect("it was written").len();
+    let count = metrics["particle_count"].as_u64().expect("a number");
+    // A header of 32 bytes, and seven frames of three floats for each particle.
+    assert_eq!(points("0_skirt.pc2") + points("1_shirt_sleeveless.pc2"), 2 * 32 + 7 * 12 * count);
 }

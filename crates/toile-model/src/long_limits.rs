@@ -7,8 +7,8 @@ use glam::DVec2;
 
 /// Particles of a strand at most: what a workgroup holds in its memory.
 pub const STRAND_PARTICLES_MAX: u32 = 512;
-/// Particles of a strand at least; what is shorter is a single limit.
-const STRAND_PARTICLES_MIN: usize = 3;
+/// Particles of a strand at least: what is shorter keeps no workgroup busy, and its springs are loose limits.
+const STRAND_PARTICLES_MIN: usize = 8;
 /// Cells along the longest limits of diagonals: farther than this warp and weft leave them nothing to do.
 const DIAGONAL_CELLS: usize = 8;
 /// Cells along the longest limits of a small cloth.

@@ -4,7 +4,7 @@ use crate::args::Walk;
 use crate::commands::outfit;
 use crate::walk;
 use anyhow::{Result, bail};
-use toile::scene::Settings;
+use toile::scene::{Settings, Wind};
 
 /// Walks the outfit that the options name.
 pub fn run(arguments: &Walk) -> Result<()> {
@@ -27,11 +27,18 @@ pub fn run(arguments: &Walk) -> Result<()> {
         &walk::Walk {
             body,
             garments: outfit::read_garments(outfit)?,
-            settings: Settings { frame_rate: arguments.fps, ..outfit::settings(outfit)? },
+            settings: Settings {
+                frame_rate: arguments.fps,
+                wind: arguments.wind.map(Wind::new),
+                ..outfit::settings(outfit)?
+            },
             frame_count,
             precompute_maps: arguments.precompute_maps,
             resume: arguments.resume,
-            identity: format!("{outfit:?} {seconds} s {} fps, maps kept: {}", arguments.fps, arguments.precompute_maps),
+            identity: format!(
+                "{outfit:?} {seconds} s {} fps, wind {:?}, maps kept: {}",
+                arguments.fps, arguments.wind, arguments.precompute_maps
+            ),
         },
         &arguments.running,
     )

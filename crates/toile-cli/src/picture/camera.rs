@@ -96,12 +96,12 @@ impl Camera {
         let axes = Axes { right, up: toward.cross(right), toward };
 
         // The upright cylinder around the scene has the same size from all sides, and so all views have one scale.
-        let radius = soup.positions.iter().map(|p| p.x.hypot(p.z)).fold(0.0, f32::max);
+        let radius = soup.framed.iter().map(|p| p.x.hypot(p.z)).fold(0.0, f32::max);
         let tallness = 2.0 * (soup.half.y * pitch_cos + radius * pitch_sin);
         let free = 1.0 - 2.0 * MARGIN;
         let pixels = height as f32 * free * (1.0 / tallness).min(2.0 / (2.0 * radius));
 
-        let [low, high] = axes.bounds(&soup.positions);
+        let [low, high] = axes.bounds(&soup.framed);
         let wanted = (pixels * (high.x - low.x) / free).ceil() as usize;
         let width = wanted.clamp(height.div_ceil(2), 2 * height);
         let middle = Vec2::new(-0.5 * pixels * (low.x + high.x), 0.0);

@@ -28,6 +28,22 @@ pub fn strip(images: &[RgbImage]) -> RgbImage {
     strip
 }
 
+/// All pictures one below the other, left edges in line. Narrower pictures get white beside them.
+///
+/// # Panics
+/// When there is no picture.
+pub fn stack(images: &[RgbImage]) -> RgbImage {
+    let width = images.iter().map(RgbImage::width).max().expect("a stack has at least one picture");
+    let height = images.iter().map(RgbImage::height).sum();
+    let mut stack = RgbImage::from_pixel(width, height, image::Rgb([255; 3]));
+    let mut top = 0;
+    for image in images {
+        stack.copy_from(image, 0, top).expect("the stack is as wide and high as its pictures need");
+        top += image.height();
+    }
+    stack
+}
+
 /// Writes a picture as PNG. The file appears complete or not at all.
 ///
 /// # Errors

@@ -18,19 +18,21 @@ pub struct Soup {
     pub materials: Vec<Material>,
     /// Half the size of the box.
     pub half: Vec3,
+    /// What the camera frames: the vertices, or the corners of the box that was asked for.
+    pub framed: Vec<Vec3>,
 }
 
 impl Soup {
-    /// Gathers the meshes and refuses what cannot be drawn.
-    pub fn new(drawn: &[Drawn]) -> Result<Self, PictureError> {
+    /// Gathers the meshes and refuses what cannot be drawn. The box is that around them, or the given one.
+    pub fn new(drawn: &[Drawn], stage: Option<[Vec3; 2]>) -> Result<Self, PictureError> {
         refuse_non_finite(drawn)?;
         let used = drawn
             .iter()
             .flat_map(|d| d.mesh.triangles.iter().flatten().map(|i| d.mesh.positions[*i as usize].as_dvec3()));
-        let (low, high) = used
-            .fold((DVec3::splat(f64::INFINITY), DVec3::splat(f64::NEG_INFINITY)), |(low, high), p| {
-                (low.min(p), high.max(p))
-            });
+        let around = used.fold((DVec3::splat(f64::INFINITY), DVec3::splat(f64::NEG_INFINITY)), |(low, high), p| {
+            (low.min(p), high.max(p))
+        });
+        let (low, high) = stage.map_or(around, |[low, high]| (low.as_dvec3(), high.as_dvec3()));
         let radius = 0.5 * (high - low).length();
         if !radius.is_finite() || radius == 0.0 {
             return Err(PictureError::Empty);
@@ -44,6 +46,7 @@ impl Soup {
             triangle_materials: Vec::new(),
             materials: drawn.iter().map(|d| d.material).collect(),
             half: (0.5 * (high - low) / radius).as_vec3(),
+            framed: Vec::new(),
         };
         for (index, Drawn { mesh, .. }) in drawn.iter().enumerate() {
             // Only vertices that a triangle uses: the others may lie far outside the frame.
@@ -61,6 +64,8 @@ impl Soup {
             }
             soup.triangle_materials.resize(soup.triangles.len(), index as u32);
         }
+        let corner = |k: u32| soup.half * Vec3::from([0, 1, 2].map(|axis| if k >> axis & 1 == 0 { -1.0 } else { 1.0 }));
+        soup.framed = if stage.is_some() { (0..8).map(corner).collect() } else { soup.positions.clone() };
         Ok(soup)
     }
 }

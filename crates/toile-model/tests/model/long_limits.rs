@@ -33,7 +33,7 @@ fn check_strands(model: &Model) {
         end = colour.end;
         let mut particles = BTreeSet::new();
         for strand in &model.strands[colour.start as usize..colour.end as usize] {
-            assert!(strand.particles.len() >= 3 && strand.particles.len() <= STRAND_PARTICLES_MAX as usize);
+            assert!(strand.particles.len() >= 8 && strand.particles.len() <= STRAND_PARTICLES_MAX as usize);
             for k in strand.particles.clone() {
                 let particle = model.strand_particles[k as usize];
                 assert!(particles.insert(particle), "particle {particle} twice");
@@ -69,12 +69,13 @@ fn on_a_grid_every_line_of_2_4_and_8_cells_has_its_length() {
             x.abs().max(y)
         })
         .collect();
-    for (wanted, columns, rows) in [(8, 4, 2), (4, 8, 6), (2, 10, 8)] {
+    // Of each direction of diagonals two lines have 8 particles, two have 9 and three have 10; shorter ones are no strands.
+    for (wanted, columns, rows, diagonals) in [(8, 4, 2, 2 + 3 * 2), (4, 8, 6, 8 + 10 + 18), (2, 10, 8, 12 + 14 + 24)] {
         let count = cells.iter().filter(|cells| **cells == wanted).count();
-        assert_eq!(count, columns * 10 + rows * 12 + 2 * columns * rows, "of {wanted} cells");
+        assert_eq!(count, columns * 10 + rows * 12 + 2 * diagonals, "of {wanted} cells");
     }
     assert_eq!(model.strand_colours.len(), 4, "warp, weft and the two diagonals");
-    assert_eq!(model.loose_limits.len(), 4, "diagonals of the corners");
+    assert_eq!(model.loose_limits.len(), 84, "diagonals of the corners");
 }
 
 #[test]
