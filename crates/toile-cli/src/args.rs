@@ -32,7 +32,7 @@ pub enum Command {
 }
 
 /// What is worn, and how it is simulated.
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct Outfit {
     /// Body mesh: OBJ, PLY, glTF or GLB.
     #[arg(long, value_name = "FILE")]
@@ -111,6 +111,9 @@ pub struct Walk {
     /// Frames per second.
     #[arg(long, value_name = "RATE", default_value = "30", value_parser = parse_rate)]
     pub fps: f64,
+    /// Dress in the first pose of this clip, and go over to that of --clip in a second: for clips that begin with arms at the body.
+    #[arg(long, value_name = "CLIP")]
+    pub dress_in: Option<String>,
     /// Velocity of the air [m/s]; without it there is no air. Garments are dressed without it.
     #[arg(long, value_name = "X,Y,Z", value_parser = parse_velocity, allow_hyphen_values = true)]
     pub wind: Option<DVec3>,

@@ -137,7 +137,7 @@ pub fn render(drawn: &[Drawn], view: View, height: u32) -> Result<RgbImage, Pict
 }
 
 /// A picture of what stands in a box [m], given by its smallest and largest corner, whose floor is that of the picture: pictures of
-/// boxes of one size have the same scale and size.
+/// boxes of one size have the same scale and size from all sides.
 ///
 /// # Errors
 /// As [`render`].

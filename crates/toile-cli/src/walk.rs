@@ -32,6 +32,8 @@ use toile_reference::ExactDistance;
 
 /// Maps are drawn so often at least [1/s]; in between, surfaces go straight on by the velocity map.
 const MAP_RATE: f64 = 60.0;
+/// Time that a garment has to hang quietly at the start of the walk [s].
+const WAITING_SECONDS: f64 = 0.5;
 /// Frames in the strip.
 const STRIP_COUNT: u32 = 6;
 /// Height of the pictures [px].
@@ -41,6 +43,8 @@ const PICTURE_HEIGHT: u32 = 480;
 pub struct Walk {
     /// The body and its motion.
     pub body: MovingMesh,
+    /// The way from the pose in which it is dressed to the start of the walk; `None` when it is dressed there.
+    pub dressing: Option<MovingMesh>,
     /// The garments, inner ones first.
     pub garments: Vec<Garment>,
     /// How they are simulated, at the frame rate of the walk.
@@ -74,7 +78,11 @@ pub fn walk(walk: &Walk, running: &Running) -> Result<()> {
     let saved = Saved::open(&running.out, &walk.identity, walk.resume)?;
     let walkers = walk.garments.iter().map(|garment| walker(garment, &walk.settings)).collect::<Result<Vec<_>>>()?;
     if saved.frame_count() == 0 {
-        saved.write(0, &dress(walk, &computer, running.quiet)?, None)?;
+        let mut states = dress(walk, &computer, running.quiet)?;
+        if let Some(way) = &walk.dressing {
+            states = go_to_start(walk, way, gpu, &walkers, &states)?;
+        }
+        saved.write(0, &states, None)?;
     }
     let collision_part = simulate(walk, gpu, &walkers, &saved, running)?;
     let rows = saved.rows(walk.frame_count)?;
@@ -102,7 +110,8 @@ fn walker(garment: &Garment, settings: &Settings) -> Result<Walker> {
 fn dress(walk: &Walk, computer: &Computer, quiet: bool) -> Result<Vec<GarmentState>> {
     let thickness = walk.settings.fabric.thickness as f32;
     let texel = walk.settings.texel as f32;
-    let mut layers = vec![Layer { mesh: walk.body.mesh.clone(), thickness }];
+    let body = walk.dressing.as_ref().unwrap_or(&walk.body);
+    let mut layers = vec![Layer { mesh: body.mesh.clone(), thickness }];
     let mut states = Vec::new();
     for garment in &walk.garments {
         let around = Surroundings { computer, layers: &layers, sphere: None, texel, quiet };
@@ -111,6 +120,36 @@ fn dress(walk: &Walk, computer: &Computer, quiet: bool) -> Result<Vec<GarmentSta
         layers.push(Layer { mesh: worn.mesh, thickness });
     }
     Ok(states)
+}
+
+/// The dressed garments go along while the body goes over to the start of its walk and waits there until they hang quietly.
+fn go_to_start(
+    walk: &Walk,
+    way: &MovingMesh,
+    gpu: &Gpu,
+    walkers: &[Walker],
+    states: &[GarmentState],
+) -> Result<Vec<GarmentState>> {
+    let seconds = 1.0 / walk.settings.frame_rate;
+    let maps_per_frame = maps_per_frame(walkers[0].settings.steps_per_frame, walk.settings.frame_rate);
+    let garments: Vec<_> = walkers.iter().map(|walker| (&walker.model, walker.settings.draping())).collect();
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    let texel = walk.settings.texel as f32;
+    let mut outfit = Outfit::new(&gpu.device, &mut encoder, way, &garments, texel, maps_per_frame)?;
+    outfit.record_start(&gpu.device, &mut encoder, 0.0);
+    gpu.queue.submit([encoder.finish()]);
+    for ((simulation, walker), state) in outfit.garments().zip(walkers).zip(states) {
+        state.upload(gpu, simulation, &walker.model)?;
+    }
+    let frame_count = ((way.duration() + WAITING_SECONDS) / seconds).ceil() as u32;
+    for _ in 0..frame_count {
+        interrupt::check()?;
+        timed(gpu, |encoder| outfit.record(&gpu.device, encoder, seconds))?;
+        for simulation in outfit.garments_mut() {
+            simulation.status()?;
+        }
+    }
+    outfit.garments().map(|simulation| GarmentState::download(gpu, simulation)).collect()
 }
 
 /// Walks, frame by frame, and says which part of a step goes to the bodies.

@@ -44,6 +44,20 @@ impl MovingMesh {
         moving
     }
 
+    /// The way from the first pose of one moving mesh to that of another on the same joints, in some seconds; `None` when vertices or
+    /// joints differ, and for sequences.
+    pub fn transition(from: &Self, to: &Self, seconds: f64) -> Option<Self> {
+        match (&from.motion, &to.motion) {
+            (Motion::Skinned { skin, rig: first }, Motion::Skinned { skin: other, rig: last })
+                if skin.positions == other.positions && skin.influences == other.influences =>
+            {
+                let rig = Rig::transition(first, last, seconds)?;
+                Some(Self { mesh: from.mesh.clone(), motion: Motion::Skinned { skin: skin.clone(), rig } })
+            }
+            _ => None,
+        }
+    }
+
     /// The mesh at a time [s], computed in f64: every vertex, so for pictures and exact measurement, not for each frame.
     pub fn at(&self, time: f64) -> Mesh {
         let [positions, normals] = match &self.motion {

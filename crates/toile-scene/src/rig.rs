@@ -1,6 +1,6 @@
 //! Joints and how they move.
 
-use crate::clip::{Channel, Clip, Interpolation, Keys, unit};
+use crate::clip::{Between, Channel, Clip, Interpolation, Keys, unit};
 use crate::{Pose, RigidKey};
 use glam::{DMat4, DQuat, DVec3};
 use std::sync::Arc;
@@ -163,6 +163,49 @@ impl Rig {
         }))
     }
 
+    /// The way from the first pose of one rig to that of another with the same nodes and joints, gently started and stopped, in some
+    /// seconds; `None` when they are not the same.
+    pub fn transition(from: &Self, to: &Self, seconds: f64) -> Option<Self> {
+        let [start, end] = [from, to].map(|rig| rig.0.local_transforms(0.0));
+        let same = |(a, b): (&RigNode, &RigNode)| a.parent == b.parent;
+        let nodes_are_same = start.len() == end.len() && from.0.nodes.iter().zip(&to.0.nodes).all(same);
+        if !nodes_are_same || from.0.joints != to.0.joints || from.0.morph_weights.len() != to.0.morph_weights.len() {
+            return None;
+        }
+        let mut channels = Vec::new();
+        for (node, ends) in start.iter().zip(&end).enumerate() {
+            match ends {
+                (LocalTransform::Parts { .. }, LocalTransform::Parts { .. }) => {}
+                (a, b) if a == b => continue,
+                _ => return None,
+            }
+            let (
+                LocalTransform::Parts { translation, rotation, scale },
+                LocalTransform::Parts { translation: next_translation, rotation: next_rotation, scale: next_scale },
+            ) = ends
+            else {
+                unreachable!("both have parts")
+            };
+            channels.push(Channel::Translation { node, keys: gentle(*translation, *next_translation, seconds) });
+            channels.push(Channel::Rotation { node, keys: gentle(*rotation, *next_rotation, seconds) });
+            channels.push(Channel::Scale { node, keys: gentle(*scale, *next_scale, seconds) });
+        }
+        for (target, weights) in from.morph_weights(0.0).into_iter().zip(to.morph_weights(0.0)).enumerate() {
+            channels.push(Channel::MorphWeight { target, keys: gentle(weights.0, weights.1, seconds) });
+        }
+        let clip = Clip { name: "transition".into(), duration: seconds, channels };
+        let parts = Parts {
+            nodes: to.0.nodes.clone(),
+            order: to.0.order.clone(),
+            joints: to.0.joints.clone(),
+            morph_weights: to.0.morph_weights.clone(),
+            clip: Some(clip),
+            metres_per_unit: to.0.metres_per_unit,
+            is_closed: false,
+        };
+        Some(Self(Arc::new(parts)))
+    }
+
     /// Where the joints stand at a time [s], rounded to f32. A closed clip repeats; any other stands still after its end.
     pub fn pose(&self, time: f64) -> Pose {
         let rows = |matrix: &DMat4| [0, 1, 2].map(|row| matrix.row(row).as_vec4());
@@ -222,12 +265,24 @@ impl Rig {
     }
 }
 
+/// Keys from one value to another by the cubic 3s² − 2s³ of the share s of the time.
+fn gentle<T: Between + Copy>(from: T, to: T, seconds: f64) -> Keys<T> {
+    const KEY_COUNT: u32 = 16;
+    let shares = || (0..=KEY_COUNT).map(|k| f64::from(k) / f64::from(KEY_COUNT));
+    Keys {
+        interpolation: Interpolation::Linear,
+        times: shares().map(|share| share * seconds).collect(),
+        values: shares().map(|share| from.between(to, share * share * (3.0 - 2.0 * share))).collect(),
+    }
+}
+
 impl Parts {
     fn duration(&self) -> f64 {
         self.clip.as_ref().map_or(0.0, |clip| clip.duration)
     }
 
-    fn node_transforms(&self, time: f64) -> Vec<DMat4> {
+    /// Transform of each node relative to its parent at a time of the clip [s].
+    fn local_transforms(&self, time: f64) -> Vec<LocalTransform> {
         let mut local: Vec<LocalTransform> = self.nodes.iter().map(|node| node.transform).collect();
         for channel in self.clip.iter().flat_map(|clip| &clip.channels) {
             let (Channel::Translation { node, .. } | Channel::Rotation { node, .. } | Channel::Scale { node, .. }) =
@@ -245,6 +300,11 @@ impl Parts {
                 Channel::MorphWeight { .. } => {}
             }
         }
+        local
+    }
+
+    fn node_transforms(&self, time: f64) -> Vec<DMat4> {
+        let local = self.local_transforms(time);
         let mut world = vec![DMat4::IDENTITY; local.len()];
         for node in &self.order {
             let matrix = local[*node].matrix();

@@ -1,10 +1,13 @@
 //! `toile walk`.
 
-use crate::args::Walk;
+use crate::args::{Outfit, Walk};
 use crate::commands::outfit;
 use crate::walk;
 use anyhow::{Result, bail};
-use toile::scene::{Settings, Wind};
+use toile::scene::{MovingMesh, Settings, Wind};
+
+/// Time in which a dressed body goes over to the first pose of its walk [s].
+const DRESSING_SECONDS: f64 = 1.0;
 
 /// Walks the outfit that the options name.
 pub fn run(arguments: &Walk) -> Result<()> {
@@ -18,6 +21,7 @@ pub fn run(arguments: &Walk) -> Result<()> {
             eprintln!("warning: {warning}");
         }
     }
+    let dressing = arguments.dress_in.as_ref().map(|clip| dressing(outfit, clip, &body)).transpose()?;
     let seconds = arguments.seconds.unwrap_or(body.duration());
     let frame_count = (seconds * arguments.fps).round() as u32;
     if frame_count == 0 {
@@ -26,6 +30,7 @@ pub fn run(arguments: &Walk) -> Result<()> {
     walk::walk(
         &walk::Walk {
             body,
+            dressing,
             garments: outfit::read_garments(outfit)?,
             settings: Settings {
                 frame_rate: arguments.fps,
@@ -36,10 +41,19 @@ pub fn run(arguments: &Walk) -> Result<()> {
             precompute_maps: arguments.precompute_maps,
             resume: arguments.resume,
             identity: format!(
-                "{outfit:?} {seconds} s {} fps, wind {:?}, maps kept: {}",
-                arguments.fps, arguments.wind, arguments.precompute_maps
+                "{outfit:?} {seconds} s {} fps, dressed in {:?}, wind {:?}, maps kept: {}",
+                arguments.fps, arguments.dress_in, arguments.wind, arguments.precompute_maps
             ),
         },
         &arguments.running,
     )
+}
+
+/// The way of the body from the first pose of a clip, in which it is dressed, to the start of the walk.
+fn dressing(outfit: &Outfit, clip: &str, body: &MovingMesh) -> Result<MovingMesh> {
+    let from = outfit::read_moving_body(&Outfit { clip: Some(clip.to_owned()), ..outfit.clone() })?.0;
+    match MovingMesh::transition(&from, body, DRESSING_SECONDS) {
+        Some(way) => Ok(way),
+        None => bail!("--dress-in {clip}: it moves other joints than --clip; choose a clip of the same body"),
+    }
 }

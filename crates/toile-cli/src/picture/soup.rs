@@ -18,7 +18,7 @@ pub struct Soup {
     pub materials: Vec<Material>,
     /// Half the size of the box.
     pub half: Vec3,
-    /// What the camera frames: the vertices, or the corners of the box that was asked for.
+    /// What the camera frames: the vertices, or the upright cylinder in the box that was asked for, which is as wide from all sides.
     pub framed: Vec<Vec3>,
 }
 
@@ -64,10 +64,19 @@ impl Soup {
             }
             soup.triangle_materials.resize(soup.triangles.len(), index as u32);
         }
-        let corner = |k: u32| soup.half * Vec3::from([0, 1, 2].map(|axis| if k >> axis & 1 == 0 { -1.0 } else { 1.0 }));
-        soup.framed = if stage.is_some() { (0..8).map(corner).collect() } else { soup.positions.clone() };
+        soup.framed = if stage.is_some() { upright_cylinder(soup.half) } else { soup.positions.clone() };
         Ok(soup)
     }
+}
+
+/// Points on the rims of an upright cylinder that is as high as a box and as wide as its wider side.
+fn upright_cylinder(half: Vec3) -> Vec<Vec3> {
+    let radius = half.x.max(half.z);
+    let point = |k: u32| {
+        let (sin, cos) = (k as f32 * std::f32::consts::TAU / 72.0).sin_cos();
+        [-half.y, half.y].map(|y| Vec3::new(radius * cos, y, radius * sin))
+    };
+    (0..72).flat_map(point).collect()
 }
 
 fn refuse_non_finite(drawn: &[Drawn]) -> Result<(), PictureError> {

@@ -382,3 +382,18 @@ fn what_leaves_its_place_is_told_and_what_differs_is_refused() {
     let missing = read_mesh_sequence(std::path::Path::new("nowhere"), 10.0, &BodyOptions::default());
     assert!(missing.expect_err("no folder").to_string().starts_with("nowhere: it cannot be read: "));
 }
+
+#[test]
+fn a_body_goes_gently_from_the_pose_of_one_clip_to_that_of_another() {
+    let [from, to] = ["apose_to_walk", "walk_loop"].map(woman);
+    let way = MovingMesh::transition(&from, &to, 2.0).expect("one body");
+    assert_eq!((way.duration(), way.is_closed()), (2.0, false));
+    let far = |a: &[glam::Vec3], b: &[glam::Vec3]| a.iter().zip(b).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
+    let at = |time: f64| way.at(time).positions;
+    assert!(far(&at(0.0), &from.at(0.0).positions) < 1e-5 && far(&at(2.0), &to.at(0.0).positions) < 1e-5);
+    assert!(far(&at(3.0), &at(2.0)) == 0.0, "it waits there");
+    let [start, middle] = [far(&at(0.0), &at(0.1)), far(&at(0.95), &at(1.05))];
+    assert!(start < 0.3 * middle, "{start} m and {middle} m in a tenth of a second");
+    let (mesh, keys) = (from.mesh.clone(), Vec::new());
+    assert!(MovingMesh::transition(&from, &MovingMesh::rigid(mesh, keys), 2.0).is_none());
+}
