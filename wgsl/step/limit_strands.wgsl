@@ -10,33 +10,35 @@
 @group(0) @binding(5) var<storage, read> positions: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read_write> velocities: array<vec4<f32>>;
 
-// Lanes of most GPUs: few enough that the limits of a garment's strand keep them busy.
-const LANES: u32 = 32u;
+// Few, because the strands of a garment are short: on a driver that runs on the CPU more lanes cost more than they do.
+const LANES: u32 = 8u;
 const STRAND_PARTICLES: u32 = 512u;
 
+// Where the particles will be after the coming move, with their inverse masses; and by how much their velocities have changed.
 var<workgroup> places: array<vec4<f32>, STRAND_PARTICLES>;
-var<workgroup> speeds: array<vec4<f32>, STRAND_PARTICLES>;
+var<workgroup> changes: array<vec3<f32>, STRAND_PARTICLES>;
 
 fn hold(a: u32, b: u32, max_length: f32) {
     let place_a = places[a];
     let place_b = places[b];
+    let difference = place_b.xyz - place_a.xyz;
+    let squared_length = dot(difference, difference);
     let inverse_mass_sum = place_a.w + place_b.w;
-    if !(inverse_mass_sum > 0.0) {
-        return;
-    }
-    let speed_a = speeds[a];
-    let speed_b = speeds[b];
-    let predicted = (place_b.xyz - place_a.xyz) + (speed_b.xyz - speed_a.xyz) * step.dt;
-    let predicted_length = length(predicted);
-    if predicted_length > max_length {
-        let change = predicted
+    // Most limits are slack: they cost no root and no write.
+    if squared_length > max_length * max_length && inverse_mass_sum > 0.0 {
+        let predicted_length = sqrt(squared_length);
+        let impulse = difference
             * ((predicted_length - max_length) / ((predicted_length * step.dt) * inverse_mass_sum));
-        speeds[a] = vec4<f32>(speed_a.xyz + change * place_a.w, speed_a.w);
-        speeds[b] = vec4<f32>(speed_b.xyz - change * place_b.w, speed_b.w);
+        let change_a = impulse * place_a.w;
+        let change_b = impulse * place_b.w;
+        places[a] = vec4<f32>(place_a.xyz + change_a * step.dt, place_a.w);
+        places[b] = vec4<f32>(place_b.xyz - change_b * step.dt, place_b.w);
+        changes[a] = changes[a] + change_a;
+        changes[b] = changes[b] - change_b;
     }
 }
 
-@compute @workgroup_size(32)
+@compute @workgroup_size(8)
 fn limit_strands(
     @builtin(local_invocation_index) lane: u32,
     @builtin(workgroup_id) group: vec3<u32>,
@@ -49,8 +51,9 @@ fn limit_strands(
     let strand = strands[span.first + item];
     for (var k = lane; k < strand.count; k += LANES) {
         let i = strand_particles[strand.first + k];
-        places[k] = positions[i];
-        speeds[k] = velocities[i];
+        let position = positions[i];
+        places[k] = vec4<f32>(position.xyz + velocities[i].xyz * step.dt, position.w);
+        changes[k] = vec3<f32>(0.0);
     }
     workgroupBarrier();
     for (var above = strand.level_count; above > 0u; above--) {
@@ -70,6 +73,8 @@ fn limit_strands(
         }
     }
     for (var k = lane; k < strand.count; k += LANES) {
-        velocities[strand_particles[strand.first + k]] = speeds[k];
+        let i = strand_particles[strand.first + k];
+        let velocity = velocities[i];
+        velocities[i] = vec4<f32>(velocity.xyz + changes[k], velocity.w);
     }
 }

@@ -1,5 +1,6 @@
 //! A walk: an outfit is dressed in the first pose of a clip and goes along with the body, frame by frame.
 
+pub mod dressing;
 mod regions;
 mod rows;
 mod saved;

@@ -7,7 +7,7 @@ use crate::{Csr, Limit, Link, Model, Spring, SpringKind};
 use toile_scene::Rule;
 
 /// Part of the threshold that hierarchical limits hold [1]. Sweeps end before they converge; what is left goes on top.
-const AIM: f32 = 0.8;
+const AIM: f32 = 0.6;
 
 impl Model {
     /// Fills what follows from springs, seam pairs and quads.

@@ -9,8 +9,6 @@ use glam::DVec2;
 pub const STRAND_PARTICLES_MAX: u32 = 512;
 /// Particles of a strand at least: what is shorter keeps no workgroup busy, and its springs are loose limits.
 const STRAND_PARTICLES_MIN: usize = 8;
-/// Cells along the longest limits of diagonals: farther than this warp and weft leave them nothing to do.
-const DIAGONAL_CELLS: usize = 8;
 /// Cells along the longest limits of a small cloth.
 const CELLS_MIN: usize = 8;
 /// Part of a square cloth that the longest limits span at least [1].
@@ -25,16 +23,14 @@ impl Model {
         let rims = cloth.rims();
         let sides = cloth.side_lines().cut(STRAND_PARTICLES_MAX as usize);
         let diagonals = cloth.diagonal_lines().cut(STRAND_PARTICLES_MAX as usize);
-        let kinds =
-            sides.iter().map(|line| (line, cells_max)).chain(diagonals.iter().map(|line| (line, DIAGONAL_CELLS)));
-        let lines: Vec<(&Line, usize)> =
-            kinds.filter(|(line, _)| line.particles.len() >= STRAND_PARTICLES_MIN).collect();
+        let lines: Vec<&Line> =
+            sides.iter().chain(&diagonals).filter(|line| line.particles.len() >= STRAND_PARTICLES_MIN).collect();
         let colours = line_colours(&lines, cloth.particle_count);
         let stretch = self.stretch();
         let mut strand_ends: Vec<[u32; 2]> = Vec::new();
         for colour in 0..colours.iter().max().map_or(0, |last| last + 1) {
             let first = self.strands.len() as u32;
-            for ((line, cells_max), _) in lines.iter().zip(&colours).filter(|(_, c)| **c == colour) {
+            for (line, _) in lines.iter().zip(&colours).filter(|(_, c)| **c == colour) {
                 let start = self.strand_particles.len() as u32;
                 self.strand_particles.extend(&line.particles);
                 let mut strand = Strand {
@@ -43,7 +39,7 @@ impl Model {
                     level_count: 0,
                 };
                 let mut cells = 1;
-                while cells <= (*cells_max).min(line.particles.len() - 1) {
+                while cells <= cells_max.min(line.particles.len() - 1) {
                     let lengths = cloth.lengths(line, cells, &rims);
                     self.strand_lengths.extend(lengths.iter().map(|length| stretch * *length as f32));
                     strand.level_count += 1;
@@ -87,9 +83,9 @@ impl Strand {
 }
 
 /// A colour for each line: no two of a colour share a particle. Sides come first, and so warp and weft of a grid, then its diagonals.
-fn line_colours(lines: &[(&Line, usize)], particle_count: usize) -> Vec<u32> {
+fn line_colours(lines: &[&Line], particle_count: usize) -> Vec<u32> {
     let mut used: Vec<Vec<u32>> = vec![Vec::new(); particle_count];
-    let colour = |(line, _): &(&Line, usize)| {
+    let colour = |line: &&Line| {
         let is_free = |colour: &u32| line.particles.iter().all(|p| !used[*p as usize].contains(colour));
         let colour = (0..).find(is_free).expect("there is no end of colours");
         line.particles.iter().for_each(|p| used[*p as usize].push(colour));

@@ -58,6 +58,15 @@ impl MovingMesh {
         }
     }
 
+    /// The same mesh as it stands without its clip; `None` for a sequence, which has no other pose.
+    pub fn at_rest(&self) -> Option<Self> {
+        let Motion::Skinned { skin, rig } = &self.motion else { return None };
+        let motion = Motion::Skinned { skin: skin.clone(), rig: rig.at_rest() };
+        let mut resting = Self { mesh: self.mesh.clone(), motion };
+        resting.mesh = resting.at(0.0);
+        Some(resting)
+    }
+
     /// The mesh at a time [s], computed in f64: every vertex, so for pictures and exact measurement, not for each frame.
     pub fn at(&self, time: f64) -> Mesh {
         let [positions, normals] = match &self.motion {

@@ -206,6 +206,20 @@ impl Rig {
         Some(Self(Arc::new(parts)))
     }
 
+    /// The same rig without its clip: its joints stand where the file puts them.
+    pub fn at_rest(&self) -> Self {
+        let Parts { nodes, order, joints, morph_weights, metres_per_unit, .. } = self.0.as_ref();
+        Self(Arc::new(Parts {
+            nodes: nodes.clone(),
+            order: order.clone(),
+            joints: joints.clone(),
+            morph_weights: morph_weights.clone(),
+            clip: None,
+            metres_per_unit: *metres_per_unit,
+            is_closed: false,
+        }))
+    }
+
     /// Where the joints stand at a time [s], rounded to f32. A closed clip repeats; any other stands still after its end.
     pub fn pose(&self, time: f64) -> Pose {
         let rows = |matrix: &DMat4| [0, 1, 2].map(|row| matrix.row(row).as_vec4());

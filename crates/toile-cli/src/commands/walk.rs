@@ -2,12 +2,9 @@
 
 use crate::args::{Outfit, Walk};
 use crate::commands::outfit;
-use crate::walk;
+use crate::walk::{self, dressing};
 use anyhow::{Result, bail};
-use toile::scene::{MovingMesh, Settings, Wind};
-
-/// Time in which a dressed body goes over to the first pose of its walk [s].
-const DRESSING_SECONDS: f64 = 1.0;
+use toile::scene::{Settings, Wind};
 
 /// Walks the outfit that the options name.
 pub fn run(arguments: &Walk) -> Result<()> {
@@ -21,7 +18,16 @@ pub fn run(arguments: &Walk) -> Result<()> {
             eprintln!("warning: {warning}");
         }
     }
-    let dressing = arguments.dress_in.as_ref().map(|clip| dressing(outfit, clip, &body)).transpose()?;
+    let garments = outfit::read_garments(outfit)?;
+    let settings =
+        Settings { frame_rate: arguments.fps, wind: arguments.wind.map(Wind::new), ..outfit::settings(outfit)? };
+    let dressing = match &arguments.dress_in {
+        Some(clip) => {
+            let from = outfit::read_moving_body(&Outfit { clip: Some(clip.clone()), ..outfit.clone() })?.0;
+            Some(dressing::from_clip(&from, clip, &body)?)
+        }
+        None => dressing::from_rest(&body, &garments, &settings)?,
+    };
     let seconds = arguments.seconds.unwrap_or(body.duration());
     let frame_count = (seconds * arguments.fps).round() as u32;
     if frame_count == 0 {
@@ -31,12 +37,8 @@ pub fn run(arguments: &Walk) -> Result<()> {
         &walk::Walk {
             body,
             dressing,
-            garments: outfit::read_garments(outfit)?,
-            settings: Settings {
-                frame_rate: arguments.fps,
-                wind: arguments.wind.map(Wind::new),
-                ..outfit::settings(outfit)?
-            },
+            garments,
+            settings,
             frame_count,
             precompute_maps: arguments.precompute_maps,
             resume: arguments.resume,
@@ -47,13 +49,4 @@ pub fn run(arguments: &Walk) -> Result<()> {
         },
         &arguments.running,
     )
-}
-
-/// The way of the body from the first pose of a clip, in which it is dressed, to the start of the walk.
-fn dressing(outfit: &Outfit, clip: &str, body: &MovingMesh) -> Result<MovingMesh> {
-    let from = outfit::read_moving_body(&Outfit { clip: Some(clip.to_owned()), ..outfit.clone() })?.0;
-    match MovingMesh::transition(&from, body, DRESSING_SECONDS) {
-        Some(way) => Ok(way),
-        None => bail!("--dress-in {clip}: it moves other joints than --clip; choose a clip of the same body"),
-    }
 }
