@@ -110,6 +110,7 @@ fn fill(table: FabricTable, folder: &Path, name: &str, prefix: &str, depth: usiz
         )?,
         shear_stiffness: given("shear_stiffness", table.shear_stiffness, |f| f.shear_stiffness, true)?,
         bend_stiffness: given("bend_stiffness", table.bend_stiffness, |f| f.bend_stiffness, true)?,
+        bending_rigidity: given("bending_rigidity", Some(table.bending_rigidity.or(base.map(|f| f.bending_rigidity)).unwrap_or(0.0)), |f| f.bending_rigidity, true)?,
         damping: given("damping", table.damping, |f| f.damping, true)?,
         thickness: given("thickness", table.thickness, |f| f.thickness, true)?,
         friction: given("friction", table.friction, |f| f.friction, true)?,

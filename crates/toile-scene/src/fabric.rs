@@ -17,6 +17,10 @@ pub struct Fabric {
     pub shear_stiffness: f64,
     /// Stiffness of a bend spring [N/m] (the papers' flexion).
     pub bend_stiffness: f64,
+    /// Bending rigidity [N·m]: moment per width and curvature, as fabric laboratories measure it (B of Kawabata's system, the flexural
+    /// rigidity of Peirce's cantilever). 0 leaves bending to the bend springs as the papers have them, which resist none
+    /// that is small.
+    pub bending_rigidity: f64,
     /// Viscous damping rate [1/s]: the damping coefficient of D §3 per particle mass.
     pub damping: f64,
     /// Distance that the cloth keeps from a body [m].
@@ -34,23 +38,24 @@ impl Fabric {
     /// A fabric by name: weights as such cloth is sold, stiffnesses by the look of the drape (springs are soft on purpose,
     /// limits hold the stretch).
     pub fn preset(name: &str) -> Option<Self> {
-        let preset = |areal_density: f64, stiffness: [f64; 3], rest: [f64; 4]| Self {
+        let preset = |areal_density: f64, stiffness: [f64; 3], bending_rigidity: f64, rest: [f64; 4]| Self {
             name: name.into(),
             areal_density,
             structural_stiffness: stiffness[0],
             shear_stiffness: stiffness[1],
             bend_stiffness: stiffness[2],
+            bending_rigidity,
             damping: rest[0],
             thickness: rest[1],
             friction: rest[2],
             threshold: rest[3],
         };
         Some(match name {
-            "silk" => preset(0.12, [20.0, 6.0, 0.5], [1.0, 0.0015, 0.3, 0.05]),
-            "jersey" => preset(0.2, [25.0, 7.5, 1.0], [1.5, 0.002, 0.4, 0.1]),
-            "cotton" => preset(0.15, [30.0, 12.0, 3.0], [2.0, 0.003, 0.4, 0.05]),
-            "wool" => preset(0.25, [40.0, 16.0, 6.0], [2.0, 0.003, 0.45, 0.06]),
-            "denim" => preset(0.4, [60.0, 30.0, 15.0], [3.0, 0.003, 0.5, 0.03]),
+            "silk" => preset(0.12, [20.0, 6.0, 0.5], 4e-6, [1.0, 0.0015, 0.3, 0.05]),
+            "jersey" => preset(0.2, [25.0, 7.5, 1.0], 6e-6, [1.5, 0.002, 0.4, 0.1]),
+            "cotton" => preset(0.15, [30.0, 12.0, 3.0], 1e-5, [2.0, 0.003, 0.4, 0.05]),
+            "wool" => preset(0.25, [40.0, 16.0, 6.0], 1.2e-5, [2.0, 0.003, 0.45, 0.06]),
+            "denim" => preset(0.4, [60.0, 30.0, 15.0], 6.4e-5, [3.0, 0.003, 0.5, 0.03]),
             _ => return None,
         })
     }
