@@ -1,0 +1,12 @@
+//! The table of experiments, in the order of the report.
+
+pub mod cost;
+pub mod precision;
+pub mod settings;
+pub mod terms;
+
+use crate::Experiment;
+
+/// Every experiment, in the order of the report.
+pub const EXPERIMENTS: &[Experiment] =
+    &[precision::EXPERIMENT, settings::EXPERIMENT, cost::EXPERIMENT, terms::EXPERIMENT];
