@@ -42,7 +42,7 @@ fn slide(degrees: f64, friction: Friction) -> [f64; 2] {
     };
     let model = Model::from_sheet(&sheet, &settings);
     let step = StepSettings::new(&settings, &model);
-    let layers = Layers::draw(gpu(), &[(&mesh, thickness as f32)], settings.texel as f32);
+    let layers = Layers::draw(gpu(), &[(&mesh, thickness as f32)], settings.texel as f32).expect("the device answers");
     let colliders = Colliders { maps: Some(layers.maps.clone()), sphere: None };
     let mut simulation = Simulation::new(&gpu().device, &model, &step, colliders).expect("it fits the device");
     for _ in 0..(SECONDS * settings.frame_rate).round() as u32 {

@@ -1,7 +1,14 @@
 //! What every experiment is given: a device, a scale, a seed, and a way to say how far it is.
 
+mod gpu;
+mod layers;
+mod random;
 mod run;
+pub mod shapes;
 
+pub use gpu::Gpu;
+pub use layers::{Layers, read_maps};
+pub use random::Random;
 pub use run::{Run, StepCost};
 
 use serde::{Deserialize, Serialize};
@@ -72,6 +79,11 @@ impl Lab {
             Scale::Quick => quick,
             Scale::Full => full,
         }
+    }
+
+    /// The device with its queue.
+    pub fn gpu(&self) -> Gpu {
+        Gpu { device: self.device.clone(), queue: self.queue.clone(), adapter: self.adapter.clone() }
     }
 
     /// The end of every caption: adapter and seed.

@@ -6,9 +6,11 @@
 
 mod experiment;
 pub mod experiments;
+pub mod kernels;
 mod lab;
 pub mod page;
 
 pub use experiment::Experiment;
 pub use experiments::EXPERIMENTS;
-pub use lab::{Lab, LabError, Progress, Run, Scale, StepCost};
+pub use lab::shapes;
+pub use lab::{Gpu, Lab, LabError, Layers, Progress, Random, Run, Scale, StepCost, read_maps};
