@@ -18,6 +18,16 @@ pub enum Scale {
     Full,
 }
 
+impl Scale {
+    /// Its name.
+    pub fn word(self) -> &'static str {
+        match self {
+            Scale::Quick => "quick",
+            Scale::Full => "full",
+        }
+    }
+}
+
 /// Told what is going on; says whether to go on. The first number is the share of the experiment that is done, 0 to 1.
 pub type Progress = Box<dyn FnMut(f64, &str) -> bool>;
 

@@ -6,6 +6,7 @@
 
 mod experiment;
 pub mod experiments;
+pub mod fixtures;
 mod lab;
 pub mod page;
 
