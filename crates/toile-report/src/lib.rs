@@ -4,10 +4,12 @@
 //! that diverges is data, not an error. The small functions that measure are public, so that the tests keep a small version of
 //! every section as assertions.
 
+pub mod distance;
 mod experiment;
 pub mod experiments;
 pub mod fixtures;
 mod lab;
+pub mod network;
 pub mod page;
 
 pub use experiment::Experiment;
