@@ -56,3 +56,28 @@ pub fn body() -> Result<Mesh, LabError> {
     let options = BodyOptions { clip: Some("apose_to_walk".to_owned()), ..Default::default() };
     Ok(parse_body(BODY, "walking_woman.glb", &options)?.mesh)
 }
+
+/// A sphere around the origin as a mesh, of `2·count` meridians and `count` parallels.
+pub fn uv_sphere(radius: f64, count: u32) -> Mesh {
+    let mut mesh = Mesh::default();
+    let columns = 2 * count;
+    for row in 0..=count {
+        let polar = std::f64::consts::PI * f64::from(row) / f64::from(count);
+        for column in 0..=columns {
+            // The last column stands exactly on the first, so that no ray passes between them.
+            let around = std::f64::consts::TAU * f64::from(column % columns) / f64::from(columns);
+            let ring = if row == 0 || row == count { 0.0 } else { polar.sin() };
+            let normal = DVec3::new(ring * around.cos(), polar.cos(), ring * around.sin());
+            mesh.normals.push(normal.as_vec3());
+            mesh.positions.push((normal * radius).as_vec3());
+        }
+    }
+    for row in 0..count {
+        for column in 0..columns {
+            let a = row * (columns + 1) + column;
+            let [b, c, d] = [a + 1, a + columns + 1, a + columns + 2];
+            mesh.triangles.extend([[a, b, c], [b, d, c]]);
+        }
+    }
+    mesh
+}
