@@ -2,6 +2,7 @@
 
 pub mod cost;
 pub mod precision;
+pub mod rest;
 pub mod settings;
 pub mod terms;
 pub mod validation;

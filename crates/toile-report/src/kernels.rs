@@ -7,7 +7,7 @@ mod input;
 mod seeded;
 
 pub use answer::answer;
-pub use bits::{Difference, first_difference, vec3_words};
+pub use bits::{Difference, first_difference, ulps, vec3_words};
 pub use compiled::{Compiled, Inputs};
 pub use input::{Input, Posed};
 pub use seeded::{Seeds, VARIANTS, Variant};

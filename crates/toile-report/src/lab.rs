@@ -4,12 +4,14 @@ mod gpu;
 mod layers;
 mod random;
 mod run;
+mod settle;
 pub mod shapes;
 
 pub use gpu::Gpu;
 pub use layers::{Layers, read_maps};
 pub use random::Random;
 pub use run::{Run, StepCost};
+pub use settle::settled;
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -23,6 +25,16 @@ pub enum Scale {
     Quick,
     /// All experiments in about an hour.
     Full,
+}
+
+impl Scale {
+    /// Its name.
+    pub fn word(self) -> &'static str {
+        match self {
+            Scale::Quick => "quick",
+            Scale::Full => "full",
+        }
+    }
 }
 
 /// Told what is going on; says whether to go on. The first number is the share of the experiment that is done, 0 to 1.

@@ -1,4 +1,19 @@
-//! The report as data: sections of text, tables and plots, from which the pages are made.
+//! The report as data: sections of text, tables and plots, and the pages made from them.
+
+mod compare;
+mod html;
+mod json;
+mod markdown;
+mod number;
+mod svg;
+mod ticks;
+
+pub use compare::compare;
+pub use html::html;
+pub use json::{json, parse};
+pub use markdown::markdown;
+pub use number::three_digits;
+pub use svg::{inline, standalone};
 
 use crate::Scale;
 use serde::{Deserialize, Serialize};
@@ -15,6 +30,17 @@ pub struct Report {
     /// Seed of everything that is random.
     pub seed: u64,
     /// What the experiments gave, in their order.
+    pub sections: Vec<Section>,
+}
+
+/// What a page shows: a report, or two of them side by side.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Page {
+    /// Title.
+    pub title: String,
+    /// First paragraphs.
+    pub lead: String,
+    /// Sections.
     pub sections: Vec<Section>,
 }
 
@@ -134,6 +160,19 @@ pub enum SeriesStyle {
     LineAndMarks,
 }
 
+impl From<&Report> for Page {
+    fn from(report: &Report) -> Self {
+        let Report { adapter, version, scale, seed, sections } = report;
+        let lead = format!(
+            "What error costs how much, measured by toile {version} on {adapter} with seed {seed}; {} run.\n\nCost is counted in state \
+             copies: the time of a kernel that reads and writes position and velocity of every particle once, measured beside the \
+             rest. It carries over between machines; milliseconds do not.",
+            scale.word()
+        );
+        Self { title: "Speed against error".to_owned(), lead, sections: sections.clone() }
+    }
+}
+
 impl Section {
     /// A section of an experiment without any block yet.
     pub fn new(experiment: &crate::Experiment, lead: impl Into<String>) -> Self {
@@ -160,6 +199,13 @@ impl Table {
     pub fn push(&mut self, row: Vec<Cell>) {
         assert_eq!(row.len(), self.columns.len(), "a row has one cell per column: {}", self.caption);
         self.rows.push(row);
+    }
+}
+
+impl Column {
+    /// Name and unit, as a page shows them.
+    pub fn head(&self) -> String {
+        if self.unit.is_empty() { self.name.clone() } else { format!("{} [{}]", self.name, self.unit) }
     }
 }
 
@@ -198,4 +244,9 @@ impl Series {
         let finite = |point: &[f64; 2]| point.iter().all(|value| value.is_finite());
         Self { name: name.into(), points: points.into_iter().filter(finite).collect(), style }
     }
+}
+
+/// A text in which nothing is taken for a tag.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -1,12 +1,13 @@
 //! A cloth on the device of a lab: frame by frame, read back, and what its step costs.
 
 use crate::{Lab, LabError};
-use glam::DVec3;
+use glam::{DVec3, Vec3, Vec4};
 use std::collections::BTreeMap;
 use toile::gpu::{Timer, readback};
 use toile::model::{Model, Status, StepSettings};
 use toile::scene::{Settings, Sheet};
 use toile::{Colliders, Simulation};
+use wgpu::util::DeviceExt;
 
 /// A cloth on the device of a lab.
 #[derive(Debug)]
@@ -187,6 +188,16 @@ impl Lab {
     pub fn read(&self, buffer: &wgpu::Buffer) -> Result<Vec<DVec3>, LabError> {
         let values = readback::read_vec4s(&self.device, &self.queue, buffer)?;
         Ok(values.into_iter().map(|value| value.truncate().as_dvec3()).collect())
+    }
+
+    /// A buffer of vertices with these vectors, vec4 each.
+    pub fn vertex_buffer(&self, vectors: &[Vec3]) -> wgpu::Buffer {
+        let contents: Vec<Vec4> = vectors.iter().map(|vector| vector.extend(0.0)).collect();
+        self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("vertices"),
+            contents: bytemuck::cast_slice(&contents),
+            usage: wgpu::BufferUsages::VERTEX,
+        })
     }
 
     /// Waits until the device has done what was submitted.

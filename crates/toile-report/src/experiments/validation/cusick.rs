@@ -2,12 +2,12 @@
 
 use crate::page::{Block, Cell, Table};
 use crate::shapes::cylinder;
-use crate::{Lab, LabError, Layers, Random, Run};
+use crate::{Lab, LabError, Random, settled};
 use glam::{DQuat, DVec2, DVec3, Vec3};
 use std::f64::consts::PI;
-use toile::Colliders;
 use toile::model::{Model, StepSettings};
 use toile::scene::{Curve, Edge, Fabric, Garment, Mesh, Panel, Placement, Settings};
+use toile_reference::Colliders;
 use toile_reference::maps::{Surface, render_maps};
 
 /// Radius of the supporting disc and of the sample [m].
@@ -42,15 +42,15 @@ pub struct Drape {
 /// The disc faces the front camera, with gravity along −z: maps do not see what both cameras look along.
 ///
 /// # Errors
-/// [`LabError`] when the device is lost.
-pub fn drape(lab: &Lab, fabric: Fabric, spacing: f64, seconds: f64) -> Result<Drape, LabError> {
+/// [`LabError::Toile`] when the sample cannot be meshed.
+pub fn drape(seed: u64, fabric: Fabric, spacing: f64, seconds: f64) -> Result<Drape, LabError> {
     let mut settings = Settings { spacing, texel: 0.0025, ..Settings::new(fabric) };
     settings.gravity = DVec3::new(0.0, 0.0, -9.81);
     // Where it comes to rest is asked, not how.
     settings.fabric.damping = 5.0;
     let thickness = settings.fabric.thickness as f32;
     let mut model = Model::from_garment(&sample(), &settings)?;
-    let random = &mut Random::new(lab.seed);
+    let random = &mut Random::new(seed);
     for (position, weight) in model.positions.iter_mut().zip(&mut model.inverse_masses) {
         let clamped = f64::from(position.length()) < SUPPORT - 0.5 * spacing;
         // A flat ring would not know where to fold.
@@ -60,21 +60,18 @@ pub fn drape(lab: &Lab, fabric: Fabric, spacing: f64, seconds: f64) -> Result<Dr
     }
     let step = StepSettings::new(&settings, &model);
     let disc = cylinder(SUPPORT as f32, 0.3, 64);
-    let layers = Layers::draw(&lab.gpu(), &[(&disc, thickness)], settings.texel as f32)?;
-    let colliders = Colliders { maps: Some(layers.maps), sphere: None };
-    let carried = model.bending_carried;
-    let mut run = Run::new(lab, model, step, colliders)?;
-    let mut speed = f64::NAN;
-    for _ in 0..(seconds * settings.frame_rate).round() as u32 {
-        speed = run.frame(lab)?.map_or(f64::NAN, |status| f64::from(status.speed_max));
-    }
-    let coefficient = if run.diverged() {
-        f64::NAN
-    } else {
-        let [support, whole] = [SUPPORT, SAMPLE].map(|radius| PI * radius * radius);
-        100.0 * (shadow(&run.positions(lab)?, &run.model) - support) / (whole - support)
-    };
-    Ok(Drape { coefficient, particle_count: run.model.particle_count(), carried, speed })
+    let maps = render_maps(&[Surface { mesh: &disc, thickness, velocities: None }], settings.texel as f32);
+    let colliders = Colliders { maps: Some(maps), sphere: None };
+    let frames = (seconds * settings.frame_rate).round() as u32;
+    let end = settled(&model, &step, colliders, frames);
+    let [support, whole] = [SUPPORT, SAMPLE].map(|radius| PI * radius * radius);
+    let coefficient = |shadow: f64| 100.0 * (shadow - support) / (whole - support);
+    Ok(Drape {
+        coefficient: end.as_ref().map_or(f64::NAN, |end| coefficient(shadow(end.positions(), &model))),
+        particle_count: model.particle_count(),
+        carried: model.bending_carried,
+        speed: end.map_or(f64::NAN, |end| f64::from(end.status().speed_max)),
+    })
 }
 
 /// The table.
@@ -84,8 +81,8 @@ pub(super) fn blocks(lab: &mut Lab) -> Result<Vec<Block>, LabError> {
         "Cusick's drape coefficient of the fabrics shipped: a round sample of 30 cm lies on a disc of 18 cm; the shadow of what hangs over, by that of \
          the flat ring. Default settings (hierarchical limits, four sweeps, 16 steps per frame), after {seconds} s with a damping of 5/s; \
          shadow counted in cells of 1 mm. Bands are those published for such cloth. The bending length is (B/w)^(1/3), with w the weight per area: \
-         that of Peirce's cantilever. {}",
-        lab.place()
+         that of Peirce's cantilever. Reference on the CPU; seed {}.",
+        lab.seed
     );
     let columns = &[
         ["fabric", ""],
@@ -107,7 +104,7 @@ pub(super) fn blocks(lab: &mut Lab) -> Result<Vec<Block>, LabError> {
             lab.say(0.6, &format!("drape coefficient of {name} at {spacing} m"))?;
             let fabric = Fabric::preset(name).expect("the bands name presets");
             let [rigidity, density] = [fabric.bending_rigidity, fabric.areal_density];
-            let drape = drape(lab, fabric, spacing, seconds)?;
+            let drape = drape(lab.seed, fabric, spacing, seconds)?;
             let inside = |[low, high]: [f64; 2]| (low..=high).contains(&drape.coefficient);
             table.push(vec![
                 Cell::text(name),
@@ -128,13 +125,10 @@ pub(super) fn blocks(lab: &mut Lab) -> Result<Vec<Block>, LabError> {
 }
 
 /// Area of the cloth's shadow along z [m²].
-fn shadow(positions: &[DVec3], model: &Model) -> f64 {
+fn shadow(positions: &[Vec3], model: &Model) -> f64 {
     const CELL: f64 = 1e-3;
-    let mesh = Mesh {
-        positions: positions.iter().map(|p| p.as_vec3()).collect(),
-        normals: vec![Vec3::Z; positions.len()],
-        triangles: model.triangles(),
-    };
+    let mesh =
+        Mesh { positions: positions.to_vec(), normals: vec![Vec3::Z; positions.len()], triangles: model.triangles() };
     let maps = render_maps(&[Surface { mesh: &mesh, thickness: 0.0, velocities: None }], CELL as f32);
     maps.depth[0].iter().filter(|depth| **depth < 1.0).count() as f64 * CELL * CELL
 }

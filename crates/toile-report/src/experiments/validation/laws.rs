@@ -1,11 +1,12 @@
 //! Free fall and momentum of a sheet that nothing holds.
 
+use crate::fixtures::fabric;
 use crate::page::{Axis, Block, Cell, Plot, Series, SeriesStyle, Table};
 use crate::{Lab, LabError, Random, Run};
 use glam::{DVec2, DVec3};
 use toile::Colliders;
 use toile::model::{Model, StepSettings};
-use toile::scene::{Fabric, Rule, Settings, Sheet, VelocityModification};
+use toile::scene::{Rule, Settings, Sheet, VelocityModification};
 
 const RULES: [(&str, Rule); 7] = [
     ("none", Rule::None),
@@ -142,18 +143,8 @@ pub(super) fn blocks(lab: &mut Lab) -> Result<Vec<Block>, LabError> {
 
 /// Settings of the sheets that the velocity modification is measured on.
 pub(super) fn settings(rule: Rule) -> Settings {
-    let mut settings = Settings::new(Fabric {
-        name: "sheet of the measurements".to_owned(),
-        areal_density: 0.2,
-        structural_stiffness: 20.0,
-        shear_stiffness: 10.0,
-        bend_stiffness: 2.0,
-        bending_rigidity: 0.0,
-        damping: 0.0,
-        thickness: 0.005,
-        friction: 0.3,
-        threshold: 0.05,
-    });
+    let mut settings = Settings::new(fabric());
+    settings.fabric.damping = 0.0;
     settings.velocity_modification = VelocityModification::new(rule);
     settings
 }
