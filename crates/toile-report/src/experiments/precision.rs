@@ -6,7 +6,7 @@ mod position;
 mod refinement;
 
 pub use elongation::{Limited, Limiting, limited};
-pub use maps::{Coding, MapError, Offset, Probing, map_error, velocity_error};
+pub use maps::{Coding, MapError, Offset, Probing, Shell, map_error, velocity_error};
 pub use position::{Scene, rest_error};
 pub use refinement::shape_errors;
 
@@ -51,7 +51,8 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
     section.blocks.extend(refinement::blocks(lab, [0.65, 0.85])?);
     section.blocks.push(text(
         "Maps: what the cloth sees of the body, against its exact mesh. A point in contact is led out along the normal by the distance that \
-         the maps tell; what is left of its depth, or how far a point moves that should not, is the error.",
+         the maps tell; what is left of its depth is one error, a point that moves although it should not the other. Two cameras do not see \
+         everything: armpits, the inside of the legs and folds of the body are told apart.",
     ));
     section.blocks.extend(maps::blocks(lab, [0.85, 1.0])?);
     Ok(section)

@@ -7,21 +7,25 @@ use toile::Colliders;
 use toile::model::{Model, StepSettings};
 use toile::scene::{Pin, Rule, Settings, Sheet, VelocityModification};
 
-/// Damping that brings the sheets to rest soon [1/s]; it does not change where.
-const DAMPING: f64 = 10.0;
+/// Damping that brings the sheets to rest soon [1/s]: about the critical one of the slowest motion, a swing of the hammock.
+const DAMPING: f64 = 20.0;
 /// Speed below which a sheet is at rest [m/s].
 const SPEED_AT_REST: f32 = 2e-3;
 /// Longest simulated time [s].
 const SECONDS_MAX: f64 = 4.0;
 /// Width of the hammock between its pins, as part of its length.
 const HAMMOCK_WIDTH: f64 = 0.9;
+/// Sag that it starts with [m].
+const HAMMOCK_SAG: f64 = 0.12;
+/// Height above the sphere that the cap starts with [m]: just above the thickness.
+const CAP_HEIGHT: f64 = 0.0055;
 
 /// A scene that has one rest shape, or nearly so.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RestScene {
     /// A sheet of 0.5 m × 0.5 m between two held edges that are 0.45 m apart.
     Hammock,
-    /// A sheet of 0.4 m × 0.4 m lowered on a sphere of radius 0.25 m.
+    /// A sheet of 0.4 m × 0.4 m laid around the top of a sphere of radius 0.25 m.
     Cap,
 }
 
@@ -59,7 +63,7 @@ impl RestScene {
         match self {
             RestScene::Hammock => "a sheet of 0.5 m × 0.5 m between two held edges 0.45 m apart",
             RestScene::Cap => {
-                "a sheet of 0.4 m × 0.4 m that lies on a sphere of radius 0.25 m (thickness 5 mm, Coulomb friction 0.3)"
+                "a sheet of 0.4 m × 0.4 m laid around the top of a sphere of radius 0.25 m (thickness 5 mm, Coulomb friction 0.3)"
             }
         }
     }
@@ -70,18 +74,28 @@ impl RestScene {
                 let pins = (0..n).flat_map(|row| [Pin { column: 0, row }, Pin { column: n - 1, row }]).collect();
                 square(n, 0.5, DVec3::new(-0.25, 0.0, -0.25), DVec3::Z, pins)
             }
-            RestScene::Cap => square(n, 0.4, DVec3::new(-0.2, 0.256, 0.2), DVec3::NEG_Z, Vec::new()),
+            RestScene::Cap => square(n, 0.4, DVec3::new(-0.2, 0.0, 0.2), DVec3::NEG_Z, Vec::new()),
         }
     }
 
-    /// Moves the held edges together, and what is between them along an arc: nothing starts folded.
+    /// Puts the flat sheet near to where it will rest: the hammock along an arc, the cap around the sphere as a map around its pole.
     fn place(self, model: &mut Model) {
-        if self == RestScene::Hammock {
-            for position in &mut model.positions {
-                let s = position.x / 0.25;
-                position.x *= HAMMOCK_WIDTH as f32;
-                position.y = -0.08 * (1.0 - s * s);
-            }
+        for position in &mut model.positions {
+            let flat = position.as_dvec3();
+            let placed = match self {
+                RestScene::Hammock => {
+                    let s = flat.x / 0.25;
+                    DVec3::new(HAMMOCK_WIDTH * flat.x, -HAMMOCK_SAG * (1.0 - s * s), flat.z)
+                }
+                RestScene::Cap => {
+                    let radius = ball().radius + CAP_HEIGHT;
+                    let way = flat.x.hypot(flat.z);
+                    let (sin, cos) = (way / radius).sin_cos();
+                    let outward = if way > 0.0 { radius * sin / way } else { 0.0 };
+                    DVec3::new(flat.x * outward, radius * cos, flat.z * outward)
+                }
+            };
+            *position = placed.as_vec3();
         }
     }
 }

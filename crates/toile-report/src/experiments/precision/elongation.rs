@@ -57,7 +57,7 @@ pub fn limited(lab: &Lab, limiting: Limiting, frames: u32) -> Result<Limited, La
         elongation_max = elongation_max.max(f64::from(status.elongation_max));
     }
     let elongations = run.elongations(lab)?;
-    let cost = run.cost(lab, 2)?;
+    let cost = run.cost(lab, 3)?;
     let steps = f64::from(steps_per_frame);
     Ok(Limited {
         steps_per_frame,
@@ -89,7 +89,9 @@ pub(super) fn blocks(lab: &mut Lab, progress: [f64; 2]) -> Result<Vec<Block>, La
         ["frame", "ms"],
         ["frame", "state copies"],
     ];
-    let mut table = Table::new(&caption, &columns);
+    let figures =
+        format!("The figures of the plot above: elongation and cost by rule, size, sweeps and step. {}", lab.place());
+    let mut table = Table::new(figures, &columns);
     let mut curves: BTreeMap<usize, Vec<[f64; 2]>> = BTreeMap::new();
     let rows: Vec<(usize, Limiting)> = sizes.iter().flat_map(|n| limitings(lab, *n)).collect();
     for (index, (rule, limiting)) in rows.iter().enumerate() {

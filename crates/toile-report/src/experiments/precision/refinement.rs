@@ -34,7 +34,8 @@ pub(super) fn blocks(lab: &mut Lab, progress: [f64; 2]) -> Result<Vec<Block>, La
         lab.place()
     );
     let columns = [["scene", ""], ["spacing", "mm"], ["error, mean", "mm"], ["error, farthest", "mm"], ["order", "1"]];
-    let mut table = Table::new(&caption, &columns);
+    let figures = format!("The figures of the plot above: error of the rest shape by spacing. {}", lab.place());
+    let mut table = Table::new(figures, &columns);
     let mut series = Vec::new();
     let middle = 0.5 * (progress[0] + progress[1]);
     for (name, scene, side, part) in [
