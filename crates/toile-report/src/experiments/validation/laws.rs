@@ -1,22 +1,12 @@
 //! Free fall and momentum of a sheet that nothing holds.
 
-use crate::fixtures::fabric;
+use crate::fixtures::{RULES, fabric};
 use crate::page::{Axis, Block, Cell, Plot, Series, SeriesStyle, Table};
 use crate::{Lab, LabError, Random, Run};
 use glam::{DVec2, DVec3};
 use toile::Colliders;
 use toile::model::{Model, StepSettings};
 use toile::scene::{Rule, Settings, Sheet, VelocityModification};
-
-const RULES: [(&str, Rule); 7] = [
-    ("none", Rule::None),
-    ("zero", Rule::Zero),
-    ("average", Rule::Average),
-    ("directional", Rule::Directional),
-    ("position", Rule::Position),
-    ("predictive", Rule::Predictive),
-    ("hierarchical", Rule::Hierarchical),
-];
 
 /// Frames that the sheet falls.
 const FALL_FRAMES: u32 = 15;
