@@ -76,7 +76,7 @@ pub fn drape(seed: u64, fabric: Fabric, spacing: f64, seconds: f64) -> Result<Dr
 
 /// The table.
 pub(super) fn blocks(lab: &mut Lab) -> Result<Vec<Block>, LabError> {
-    let seconds = lab.pick(1.2, 2.5);
+    let seconds = lab.pick(1.5, 2.5);
     let caption = format!(
         "Cusick's drape coefficient of the fabrics shipped: a round sample of 30 cm lies on a disc of 18 cm; the shadow of what hangs over, by that of \
          the flat ring. Default settings (hierarchical limits, four sweeps, 16 steps per frame), after {seconds} s with a damping of 5/s; \

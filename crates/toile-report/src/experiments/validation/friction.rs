@@ -90,9 +90,7 @@ pub(super) fn blocks(lab: &mut Lab) -> Result<Vec<Block>, LabError> {
         ["papers' law, way", "mm"],
     ];
     let mut table = Table::new(caption, columns);
-    for degrees in
-        lab.pick(vec![15.0, 25.0, 29.0, 40.0], vec![10.0, 15.0, 20.0, 25.0, 26.0, 27.0, 29.0, 35.0, 40.0, 45.0])
-    {
+    for degrees in lab.pick(vec![25.0, 29.0], vec![10.0, 15.0, 20.0, 25.0, 26.0, 27.0, 29.0, 35.0, 40.0, 45.0]) {
         lab.say(0.55, &format!("friction on {degrees}°"))?;
         let coulomb = slide(lab, degrees, Friction::Coulomb)?;
         let papers = slide(lab, degrees, Friction::Papers { velocity_kept: 0.8, force_removed: 0.5 })?;
