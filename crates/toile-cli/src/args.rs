@@ -1,11 +1,13 @@
 //! What the user types.
 
-use clap::builder::PossibleValuesParser;
+mod report;
+
+pub use report::ReportOf;
+
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::DVec3;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
-use toile_report::EXPERIMENTS;
 
 /// Cloth simulation on the GPU: sews garments around bodies, drapes them, and says how well.
 #[derive(Debug, Parser)]
@@ -177,42 +179,6 @@ pub struct PlanOf {
 
 /// Names of the options of [`Outfit`], which say nothing about a scene file.
 const OUTFIT_OPTIONS: [&str; 8] = ["body", "body_units", "clip", "time", "garment", "spacing", "texel", "fabric"];
-
-/// `toile report`.
-#[derive(Args, Debug)]
-pub struct ReportOf {
-    /// Measure less: ends within five minutes on two cores.
-    #[arg(long)]
-    pub quick: bool,
-    /// Run only this experiment; repeat it for more.
-    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(EXPERIMENTS.iter().map(|experiment| experiment.name)))]
-    pub only: Vec<String>,
-    /// Folder for the report.
-    #[arg(long, value_name = "DIR", default_value = "report")]
-    pub out: PathBuf,
-    /// Seed of everything that is random.
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    pub seed: u64,
-    /// Measure nothing: put two reports side by side.
-    #[arg(long, value_names = ["A.json", "B.json"], num_args = 2, conflicts_with_all = ["quick", "only", "seed", "adapter"])]
-    pub compare: Vec<PathBuf>,
-    /// Print the report as JSON, and nothing else.
-    #[arg(long)]
-    pub json: bool,
-    /// Print nothing but errors.
-    #[arg(long)]
-    pub quiet: bool,
-    /// Part of the name of the adapter to use.
-    #[arg(long, value_name = "NAME")]
-    pub adapter: Option<String>,
-}
-
-impl ReportOf {
-    /// Where it runs: the report is about the device, so always on one.
-    pub fn place(&self) -> Place {
-        Place { adapter: self.adapter.clone(), backend: Backend::Gpu }
-    }
-}
 
 /// `toile adapters`.
 #[derive(Args, Debug)]

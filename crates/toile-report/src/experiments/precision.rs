@@ -16,7 +16,7 @@ use toile::scene::Rule;
 
 /// The row of the table.
 pub const EXPERIMENT: Experiment =
-    Experiment { name: "precision", title: "Work-precision: which error costs how much", minutes: [1.0, 15.0], run };
+    Experiment { name: "precision", title: "Work-precision: which error costs how much", minutes: [1.2, 18.0], run };
 
 /// Every rule of the velocity modification.
 const RULES: [(&str, Rule); 7] = [

@@ -69,8 +69,8 @@ pub fn limited(lab: &Lab, limiting: Limiting, frames: u32) -> Result<Limited, La
 }
 
 pub(super) fn blocks(lab: &mut Lab, progress: [f64; 2]) -> Result<Vec<Block>, LabError> {
-    let sizes: &[u32] = lab.pick(&[17], &[33, 65, 129]);
-    let frames = lab.pick(40, 120);
+    let sizes: &[u32] = lab.pick(&[17], &[17, 33, 65]);
+    let frames = lab.pick(40, 60);
     let threshold = hanging_sheet(2).1.fabric.threshold;
     let caption = format!(
         "Elongation beyond the threshold of {} % against cost: a sheet of 1 m × 1 m, 0.2 kg/m², springs of 20, 10 and 2 N/m, damping \
@@ -131,7 +131,7 @@ fn limitings(lab: &Lab, n: u32) -> Vec<(usize, Limiting)> {
             Rule::None | Rule::Zero | Rule::Average | Rule::Directional => &[1],
             Rule::Position => lab.pick(&[1], &[1, 4]),
             Rule::Predictive => lab.pick(&[1, 8], &[1, 2, 4, 8, 16]),
-            Rule::Hierarchical => lab.pick(&[1, 4], &[1, 2, 4, 8]),
+            Rule::Hierarchical => lab.pick(&[1, 4], &[1, 2, 4]),
         };
         let with = |(sweeps, step_division): (u32, u32)| (index, Limiting { rule, sweeps, step_division, n });
         let last = sweeps[sweeps.len() - 1];
