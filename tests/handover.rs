@@ -116,7 +116,8 @@ fn a_cloth_can_be_drawn_into_the_maps_of_the_next_one() {
     let mut simulation =
         Simulation::new(&gpu().device, &skirt.open, &skirt.sewing, Default::default()).expect("it fits the device");
     advance(&mut simulation).expect("it stays finite");
-    let empty = Layers::draw(gpu(), &[(&uv_sphere(Vec3::new(0.0, 0.9, 0.0), 0.5, 8), 0.0)], 0.02);
+    let empty =
+        Layers::draw(gpu(), &[(&uv_sphere(Vec3::new(0.0, 0.9, 0.0), 0.5, 8), 0.0)], 0.02).expect("the device answers");
     let drawn = |maps: &toile_gpu::BodyMaps| {
         let depth = toile_gpu::readback::read_depth(&gpu().device, &gpu().queue, maps).expect("the device answers");
         depth[0].iter().filter(|depth| **depth < 1.0).count()

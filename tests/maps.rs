@@ -88,7 +88,7 @@ fn bodies() -> Vec<(&'static str, Mesh)> {
 fn the_device_draws_what_the_reference_casts() {
     for (name, mesh) in bodies() {
         for texel in [TEXEL, 3.7 * TEXEL] {
-            let layers = Layers::draw(gpu(), &[(&mesh, THICKNESS)], texel);
+            let layers = Layers::draw(gpu(), &[(&mesh, THICKNESS)], texel).expect("the device answers");
             let reference = render_maps(&[Surface { mesh: &mesh, thickness: THICKNESS, velocities: None }], texel);
             let comparison = Comparison::new(&layers.read, &reference);
             assert!(comparison.seen > 500 && comparison.agrees(), "{name} at {texel} m: {comparison:?}");
@@ -99,7 +99,7 @@ fn the_device_draws_what_the_reference_casts() {
 #[test]
 fn several_surfaces_share_the_maps() {
     let [ball, block] = [uv_sphere(vec3(0.0, 0.2, 0.0), 0.2, 24), box_mesh(vec3(-0.3, 0.0, 0.0), vec3(0.0, 0.2, 0.3))];
-    let layers = Layers::draw(gpu(), &[(&ball, 0.01), (&block, 0.002)], TEXEL);
+    let layers = Layers::draw(gpu(), &[(&ball, 0.01), (&block, 0.002)], TEXEL).expect("the device answers");
     let surfaces = [
         Surface { mesh: &ball, thickness: 0.01, velocities: None },
         Surface { mesh: &block, thickness: 0.002, velocities: None },
@@ -112,15 +112,17 @@ fn several_surfaces_share_the_maps() {
 #[test]
 fn wrong_maps_are_found() {
     let ball = uv_sphere(vec3(0.1, 1.0, 0.0), 0.3, 32);
-    let layers = Layers::draw(gpu(), &[(&ball, THICKNESS)], TEXEL);
+    let layers = Layers::draw(gpu(), &[(&ball, THICKNESS)], TEXEL).expect("the device answers");
     let right = layers.read;
     let frame = right.frame;
-    let thinner = Layers::draw_in(gpu(), &[(&ball, 0.9 * THICKNESS)], frame).read;
+    let thinner = Layers::draw_in(gpu(), &[(&ball, 0.9 * THICKNESS)], frame).expect("the device answers").read;
     assert!(!Comparison::new(&right, &thinner).agrees(), "thickness");
     let mut turned = right.clone();
     turned.normals[0].iter_mut().for_each(|normal| normal.x = -normal.x);
     assert!(!Comparison::new(&right, &turned).agrees(), "normals");
-    let lying = Layers::draw(gpu(), &[(&box_mesh(vec3(-0.2, 0.0, -0.1), vec3(0.2, 0.3, 0.3)), 0.0)], TEXEL).read;
+    let lying = Layers::draw(gpu(), &[(&box_mesh(vec3(-0.2, 0.0, -0.1), vec3(0.2, 0.3, 0.3)), 0.0)], TEXEL)
+        .expect("the device answers")
+        .read;
     let mut swapped = lying.clone();
     swapped.depth.swap(0, 1);
     swapped.normals.swap(0, 1);
@@ -129,7 +131,7 @@ fn wrong_maps_are_found() {
 
 /// Distances [m] from the true body to the surface in the maps, sorted.
 fn distances(mesh: &Mesh, thickness: f32) -> Vec<f64> {
-    let maps = Layers::draw(gpu(), &[(mesh, thickness)], TEXEL).read;
+    let maps = Layers::draw(gpu(), &[(mesh, thickness)], TEXEL).expect("the device answers").read;
     let MapFrame { origin_x, origin_y, texel, columns, z_front, z_back, .. } = maps.frame;
     let exact = ExactDistance::new(mesh);
     let mut distances = Vec::new();
@@ -199,7 +201,7 @@ fn plan_and_bytes_do_not_depend_on_the_triangles_of_the_body() {
     let frame = MapFrame::around([vec3(-0.4, -0.4, -0.4), vec3(0.4, 0.4, 0.4)], TEXEL);
     let with = |count: u32| {
         let mesh = uv_sphere(Vec3::ZERO, 0.3, count);
-        let layers = Layers::draw_in(gpu(), &[(&mesh, THICKNESS)], frame);
+        let layers = Layers::draw_in(gpu(), &[(&mesh, THICKNESS)], frame).expect("the device answers");
         let colliders = toile::Colliders { maps: Some(layers.maps.clone()), sphere: None };
         let simulation = toile::Simulation::new(&gpu().device, &model, &settings, colliders).expect("it fits");
         (mesh.triangles.len(), simulation.plan().clone(), simulation.bytes(), layers.maps.bytes())

@@ -71,7 +71,7 @@ fn the_velocity_map_shows_how_a_turning_body_moves() {
         body.record_pose(&gpu().device, encoder, 0.199);
         body.record_pose(&gpu().device, encoder, 0.2);
     });
-    let maps = Layers::draw_surfaces(gpu(), &[(body.surface(), 0.0)], frame).read;
+    let maps = Layers::draw_surfaces(gpu(), &[(body.surface(), 0.0)], frame).expect("the device answers").read;
     let layers = maps.velocities.as_ref().expect("a moving body");
     let mut seen = 0;
     for (side, (depth, velocities)) in maps.depth.iter().zip(layers).enumerate() {
@@ -103,8 +103,10 @@ fn whole_frames_on_a_moving_body_agree() {
         outfit = Some(Outfit::new(device, encoder, &ball, &garments, texel, maps_per_frame).expect("it fits"));
     });
     let mut outfit = outfit.expect("it was made");
-    let drawn =
-        |outfit: &Outfit, time| read_maps(gpu(), outfit.maps().next().expect("a garment has maps"), frames.at(time));
+    let drawn = |outfit: &Outfit, time| {
+        read_maps(gpu(), outfit.maps().next().expect("a garment has maps"), frames.at(time))
+            .expect("the device answers")
+    };
     let mut reference: Option<Reference> = None;
     let interval = 1.0 / (60.0 * f64::from(maps_per_frame));
     let mut contacts = 0;
@@ -237,6 +239,7 @@ fn seen(kept: bool) -> Vec<BodyMaps> {
             gpu().run(|encoder| outfit.record_start(device, encoder, interval * (index - 1.0)));
             gpu().run(|encoder| outfit.record_pose(device, encoder, interval * index));
             read_maps(gpu(), outfit.maps().next().expect("a garment has maps"), frames.at(interval * index))
+                .expect("the device answers")
         })
         .to_vec()
 }
@@ -281,8 +284,12 @@ fn an_outer_garment_sees_the_inner_one_as_it_moves() {
     let mut outfit = outfit.expect("it was made");
     (0..4).for_each(|_| gpu().run(|encoder| outfit.record(device, encoder, interval)));
     let frame = frames.at(4.0 * interval);
-    let [inner, outer]: [BodyMaps; 2] =
-        outfit.maps().map(|maps| read_maps(gpu(), maps, frame)).collect::<Vec<_>>().try_into().expect("two garments");
+    let [inner, outer]: [BodyMaps; 2] = outfit
+        .maps()
+        .map(|maps| read_maps(gpu(), maps, frame).expect("the device answers"))
+        .collect::<Vec<_>>()
+        .try_into()
+        .expect("two garments");
     let seen = |maps: &BodyMaps| maps.depth[0].iter().filter(|depth| **depth < 1.0).count();
     assert!(seen(&outer) > seen(&inner) + 50, "{} and {} texels", seen(&outer), seen(&inner));
     let layers = outer.velocities.as_ref().expect("a moving body");

@@ -1,11 +1,11 @@
 //! Which branches of a kernel an input leads into, told from the input and from what the reference made of it.
 
-use crate::input::Input;
 use glam::Vec3;
 use std::collections::BTreeMap;
 use toile_kernels::Kernel;
 use toile_model::{NO_CORNER, StepSettings};
 use toile_reference::{Contact, Probe};
+use toile_report::kernels::Input;
 
 /// How many items went into each branch.
 pub type Seen = BTreeMap<&'static str, usize>;

@@ -13,7 +13,10 @@ const FRAMES: u32 = 4;
 
 fn layers(settings: &Settings) -> &'static Layers {
     static LAYERS: OnceLock<Layers> = OnceLock::new();
-    LAYERS.get_or_init(|| Layers::draw(gpu(), &[(&body(), settings.fabric.thickness as f32)], settings.texel as f32))
+    LAYERS.get_or_init(|| {
+        Layers::draw(gpu(), &[(&body(), settings.fabric.thickness as f32)], settings.texel as f32)
+            .expect("the device answers")
+    })
 }
 
 fn dress(name: &str) {

@@ -1,125 +1,26 @@
 //! Every kernel alone: the device and the reference on the same seeded input, bit for bit.
 
 use crate::branches;
-use crate::input::Input;
-use crate::seeded::{VARIANTS, input};
+use std::sync::OnceLock;
 use toile_kernels::{Kernel, TABLE};
-use toile_reference::{Probe, frame, maps, step};
-use toile_workspace::{Compiled, Inputs, first_difference, gpu};
+use toile_report::kernels::{Compiled, Input, Inputs, Seeds, VARIANTS, Variant, answer, first_difference};
+use toile_workspace::gpu;
 
 /// One item, and around the border of a workgroup, and more than a few of them.
 const SIZES: [u32; 5] = [1, 63, 64, 65, 1757];
 
-/// Does to the input what the kernel does. There is no wildcard: a kernel without reference does not compile.
-pub fn reference(kernel: Kernel, input: &mut Input) {
-    let before = input.clone();
-    let settings = &before.settings;
-    let dt = settings.dt;
-    let particles = &mut input.particles;
-    match kernel {
-        Kernel::SpringForces => input.forces = step::spring_forces(particles, &before.links, settings),
-        Kernel::QuadWind => {
-            let wind = settings.wind.as_ref().expect("the input has wind");
-            input.quad_winds = step::quad_wind(particles, &before.quads, &before.particle_quads, wind, dt);
-        }
-        Kernel::WindForces => {
-            step::wind_forces(&mut input.forces, &before.quad_winds, &before.quads, &before.particle_quads);
-        }
-        Kernel::Reaction => step::reaction(&mut input.forces, particles, &before.contacts, settings),
-        Kernel::Euler => step::euler(&mut particles.velocities, &before.forces, &before.particles.inverse_masses, dt),
-        Kernel::HoldEdges => step::hold_edges(particles, &before.holds, &before.held_particles, settings),
-        Kernel::CloseSeams => step::close_seams(particles, before.colour_pairs(), dt),
-        Kernel::LimitZero => step::limit_zero(particles, before.colour_limits()),
-        Kernel::LimitAverage => step::limit_average(particles, before.colour_limits()),
-        Kernel::LimitDirectional => {
-            step::limit_directional(particles, before.colour_limits(), Some(&before.contacts), settings);
-        }
-        Kernel::LimitStrands => {
-            let (line, lengths) = (&before.strand_particles, &before.strand_lengths);
-            step::limit_strands(particles, before.colour_strands(), line, lengths, dt);
-        }
-        Kernel::LimitAttachments => step::limit_attachments(particles, &before.attachments, dt),
-        Kernel::LimitPredictive => step::limit_predictive(particles, before.colour_limits(), dt),
-        Kernel::LimitPosition => step::limit_position(particles, before.colour_limits()),
-        Kernel::QuadMidpoints => {
-            input.midpoints = step::quad_midpoints(&particles.positions, &particles.velocities, &before.quads);
-        }
-        Kernel::SampleMaps => {
-            let [positions, velocities] = before.points();
-            input.probes = step::sample_maps(&positions, &velocities, &before.layers.read, settings);
-        }
-        Kernel::SampleMovingMaps => {
-            let [positions, velocities] = before.points();
-            input.probes = step::sample_moving_maps(&positions, &velocities, &before.layers.read, before.lag, settings);
-        }
-        Kernel::MorphBody => {
-            let body = &mut input.body;
-            body.morphed_positions = before.skin.positions.clone();
-            body.morphed_normals = before.skin.normals.clone();
-            maps::morph_body(
-                &mut body.morphed_positions,
-                &mut body.morphed_normals,
-                before.morphs(),
-                &before.pose.morph_weights,
-            );
-        }
-        Kernel::SkinBody => {
-            let [positions, normals] = [&before.body.morphed_positions, &before.body.morphed_normals];
-            let [positions, normals] = maps::skin_body(positions, normals, &before.skin, &before.pose.joints);
-            input.body.positions = positions;
-            input.body.normals = normals;
-        }
-        Kernel::VertexVelocities => {
-            input.body.velocities =
-                maps::vertex_velocities(&before.body.last_positions, &before.body.positions, before.rate);
-        }
-        Kernel::SampleSphere => {
-            let [positions, velocities] = before.points();
-            if !before.after_maps {
-                input.probes.fill(Probe::default());
-            }
-            step::sample_sphere(&mut input.probes, &positions, &velocities, &before.ball, settings);
-        }
-        Kernel::Collide => {
-            let (particle_probes, quad_probes) = before.probes.split_at(before.particle_count());
-            let probes = step::Probes { particles: particle_probes, quads: quad_probes };
-            input.contacts = step::collide(particles, &before.particle_quads, &before.midpoints, probes, settings);
-        }
-        Kernel::MoveParticles => step::move_particles(&mut particles.positions, &before.particles.velocities, dt),
-        Kernel::ParticleNormals => {
-            input.normals = frame::particle_normals(&particles.positions, &before.quads, &before.particle_quads);
-        }
-        Kernel::ParticleStatus => {
-            let status = frame::particle_status(particles);
-            input.status.non_finite_count = status.non_finite_count;
-            input.status.first_non_finite = status.first_non_finite.map_or(0, |first| u32::MAX - first);
-            input.status.speed_max = status.speed_max.to_bits();
-            input.energy_partials = status.energy_partials;
-        }
-        Kernel::TotalEnergy => input.status.kinetic_energy = frame::total_energy(&before.energy_partials),
-        Kernel::LimitStatus => {
-            let status = frame::limit_status(&particles.positions, &before.limits, settings.threshold);
-            input.status.elongation_max = status.elongation_max.to_bits();
-            input.status.over_long_count = status.over_long_count;
-        }
-        Kernel::LongestLimit => {
-            let longest = frame::longest_limit(&particles.positions, &before.limits);
-            input.status.longest_limit = longest.map_or(0, |index| u32::MAX - index);
-        }
-        Kernel::SeamStatus => {
-            input.status.seam_gap_max = frame::seam_status(&particles.positions, &before.seam_pairs).to_bits();
-        }
-        Kernel::MergeParticles => frame::merge_particles(&before.open, &before.members, particles),
-        Kernel::StateCopy => input.copies = frame::state_copy(particles),
-    }
+/// Seeded input for a kernel.
+pub fn input(kernel: Kernel, items: u32, variant: Variant) -> Input {
+    static SEEDS: OnceLock<Seeds> = OnceLock::new();
+    SEEDS.get_or_init(|| Seeds::new(gpu(), 0).expect("the device answers")).input(kernel, items, variant)
 }
 
 /// Where the device differs from the reference in what the kernel writes.
 pub fn difference(compiled: &Compiled, kernel: Kernel, input: &Input) -> Option<String> {
-    let written = compiled.run(gpu(), input.invocations, input);
+    let written = compiled.run(gpu(), input.invocations, input).expect("the device answers");
     assert!(!written.is_empty(), "{} writes nothing", kernel.name());
     let mut expected = input.clone();
-    reference(kernel, &mut expected);
+    answer(kernel, &mut expected);
     written.iter().find_map(|(name, device)| {
         let reference: Vec<u32> = bytemuck::pod_collect_to_vec(&expected.bytes(name));
         // NaN agree whatever their bits, so most of what is compared must be numbers.
@@ -154,7 +55,7 @@ fn the_input_leads_into_every_branch_of_every_kernel() {
         for variant in VARIANTS {
             let before = input(row.kernel, 1757, variant);
             let mut after = before.clone();
-            reference(row.kernel, &mut after);
+            answer(row.kernel, &mut after);
             branches::count(row.kernel, &before, &after, &mut seen);
         }
         for (branch, count) in seen {

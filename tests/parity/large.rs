@@ -3,7 +3,8 @@
 use encase::{ShaderType, UniformBuffer};
 use toile_gpu::BodyMaps;
 use toile_kernels::{Kernel, structs};
-use toile_workspace::{Compiled, Inputs, gpu};
+use toile_report::kernels::{Compiled, Inputs};
+use toile_workspace::gpu;
 
 /// A few items into the second row of workgroups.
 const ITEMS: u32 = 65_535 * 64 + 100;
@@ -35,7 +36,7 @@ impl Inputs for Many {
 #[test]
 fn a_dispatch_of_two_rows_reaches_every_particle() {
     let compiled = Compiled::new(gpu(), Kernel::StateCopy, &Kernel::StateCopy.source()).expect("the kernel compiles");
-    let copies = compiled.run(gpu(), ITEMS, &Many);
+    let copies = compiled.run(gpu(), ITEMS, &Many).expect("the device answers");
     assert!(copies["position_copies"].iter().zip(0u32..).all(|(copy, word)| *copy == word));
     assert!(copies["velocity_copies"].iter().zip(0u32..).all(|(copy, word)| *copy == !word));
 }

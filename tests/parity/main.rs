@@ -2,10 +2,8 @@
 
 mod branches;
 mod garments;
-mod input;
 mod kernels;
 mod large;
 mod life;
 mod saboteur;
-mod seeded;
 mod sheets;

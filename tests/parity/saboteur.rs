@@ -1,10 +1,10 @@
 //! Saboteurs: with any one sign of its WGSL flipped, a kernel no longer agrees with its reference.
 
-use crate::kernels::difference;
-use crate::seeded::{VARIANTS, input};
+use crate::kernels::{difference, input};
 use std::collections::BTreeMap;
 use toile_kernels::{Kernel, TABLE};
-use toile_workspace::{Compiled, gpu};
+use toile_report::kernels::{Compiled, VARIANTS};
+use toile_workspace::gpu;
 
 /// Lines that a flipped sign does not break on these inputs, each with its reason.
 const SPARED: &[&str] = &[

@@ -72,7 +72,7 @@ fn a_sheet_on_maps_and_a_sphere_together_agrees() {
     let model = sheet_model(&ball);
     let settings = StepSettings::new(&ball.settings, &model);
     let body = uv_sphere(glam::vec3(0.2, 0.05, 0.0), 0.2, 24);
-    let layers = Layers::draw(gpu(), &[(&body, settings.thickness)], 0.01);
+    let layers = Layers::draw(gpu(), &[(&body, settings.thickness)], 0.01).expect("the device answers");
     let mut life = Life::new(&model, &settings, Some(&layers), sphere(&ball));
     life.agree("a sphere and maps", 15);
     assert!(life.contacts_max > 4, "{} contacts", life.contacts_max);

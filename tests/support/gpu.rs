@@ -1,20 +1,24 @@
 //! The device of the tests. Without an adapter they fail and say what to install; they are never skipped.
 
+use std::ops::Deref;
 use std::sync::OnceLock;
+use toile_report::{Lab, Scale};
 
 /// What to do where there is no adapter.
 pub const INSTALL_HINT: &str = "the GPU tests need a Vulkan adapter; on Debian or Ubuntu \
     `apt-get install -y mesa-vulkan-drivers libvulkan1` brings one that works on the CPU";
 
-/// A device with its queue.
-#[derive(Debug)]
-pub struct Gpu {
-    /// The device. It has the limits of WebGPU, so that a test fails where a browser would.
-    pub device: wgpu::Device,
-    /// Its queue.
-    pub queue: wgpu::Queue,
-    /// Name of its adapter.
-    pub adapter: String,
+/// A device with its queue, for tests: whatever it does not answer fails them. It has the limits of WebGPU, so that a test
+/// fails where a browser would.
+#[derive(Clone, Debug)]
+pub struct Gpu(toile_report::Gpu);
+
+impl Deref for Gpu {
+    type Target = toile_report::Gpu;
+
+    fn deref(&self) -> &toile_report::Gpu {
+        &self.0
+    }
 }
 
 /// The device of this test process.
@@ -39,33 +43,29 @@ impl Gpu {
 
     /// Submits what `record` records and waits until it is done.
     pub fn run(&self, record: impl FnOnce(&mut wgpu::CommandEncoder)) {
-        let mut encoder = self.device.create_command_encoder(&Default::default());
-        record(&mut encoder);
-        self.queue.submit([encoder.finish()]);
-        self.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device answers");
-    }
-
-    /// A buffer with these contents.
-    pub fn upload(&self, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
-        use wgpu::util::DeviceExt;
-        self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: None, contents, usage })
+        self.0.run(record).expect("the device answers");
     }
 
     /// Reads a buffer back as 32-bit words.
     pub fn words(&self, buffer: &wgpu::Buffer) -> Vec<u32> {
-        let bytes = toile_gpu::readback::read_buffer(&self.device, &self.queue, buffer).expect("the device answers");
-        bytemuck::pod_collect_to_vec(&bytes)
+        self.0.words(buffer).expect("the device answers")
     }
 
     /// Reads a buffer of vec4 back: xyz and w of each.
     pub fn vec4s(&self, buffer: &wgpu::Buffer) -> Vec<glam::Vec4> {
-        toile_gpu::readback::read_vec4s(&self.device, &self.queue, buffer).expect("the device answers")
+        self.0.vec4s(buffer).expect("the device answers")
     }
 
     /// Reads the xyz of a buffer of vec4 back.
     pub fn vec3s(&self, buffer: &wgpu::Buffer) -> Vec<glam::Vec3> {
-        self.vec4s(buffer).into_iter().map(glam::Vec4::truncate).collect()
+        self.0.vec3s(buffer).expect("the device answers")
     }
+}
+
+/// A quick lab on the device of this test process.
+pub fn lab() -> Lab {
+    let gpu = gpu();
+    Lab::new(gpu.device.clone(), gpu.queue.clone(), gpu.adapter.clone(), Scale::Quick, 1)
 }
 
 async fn open(backends: wgpu::Backends) -> Result<Gpu, String> {
@@ -78,5 +78,5 @@ async fn open(backends: wgpu::Backends) -> Result<Gpu, String> {
     let adapter = instance.request_adapter(&options).await.map_err(|error| error.to_string())?;
     let descriptor = wgpu::DeviceDescriptor { label: Some("toile tests"), ..Default::default() };
     let (device, queue) = adapter.request_device(&descriptor).await.map_err(|error| error.to_string())?;
-    Ok(Gpu { device, queue, adapter: adapter.get_info().name })
+    Ok(Gpu(toile_report::Gpu { device, queue, adapter: adapter.get_info().name }))
 }

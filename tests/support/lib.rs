@@ -1,21 +1,15 @@
-//! Shared by the tests and benches: a device, fixtures, seeded numbers, comparisons of bits, kernels run alone.
+//! Shared by the tests and benches: a device, fixtures, simulations driven to the end of a frame. What the report needs too is in
+//! `toile-report`.
 
-mod bits;
 mod compute;
 mod drive;
 mod fixtures;
 mod gpu;
-mod layers;
-mod random;
-mod run;
-mod shapes;
 
-pub use bits::{Difference, first_difference, vec3_words};
 pub use compute::Compute;
 pub use drive::{advance, arrived, finish_frame};
 pub use fixtures::{GARMENTS, SCENES, body, fixture, garment, scene, settings, sheet_settings};
-pub use gpu::{Gpu, INSTALL_HINT, gpu};
-pub use layers::{Layers, read_maps};
-pub use random::Random;
-pub use run::{Compiled, Inputs};
-pub use shapes::{box_mesh, uv_sphere, without_triangles};
+pub use gpu::{Gpu, INSTALL_HINT, gpu, lab};
+pub use toile_report::kernels::{Difference, first_difference, vec3_words};
+pub use toile_report::shapes::{box_mesh, uv_sphere, without_triangles};
+pub use toile_report::{Layers, Random, read_maps};

@@ -1,5 +1,9 @@
 //! What the user types.
 
+mod report;
+
+pub use report::ReportOf;
+
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::DVec3;
 use std::ops::RangeInclusive;
@@ -27,6 +31,8 @@ pub enum Command {
     Rules(Rules),
     /// Print the passes that a scene gets, with dispatches per step and bytes.
     Plan(PlanOf),
+    /// Measure speed against error in every way there is and write the report: about an hour, or five minutes with --quick.
+    Report(ReportOf),
     /// List the adapters that wgpu finds.
     Adapters(Adapters),
 }

@@ -35,6 +35,11 @@ pub fn check(folder: &Path) -> Result<()> {
 
 /// Writes bodies and cloths, the cloths alone, three pictures and the metrics.
 pub fn write(folder: &Path, bodies: &[Shown<'_>], cloths: &[Shown<'_>], metrics: &Metrics) -> Result<()> {
+    write_whole(folder, |unfinished| write_files(unfinished, bodies, cloths, metrics))
+}
+
+/// Writes files to a folder of another name, and moves them to `folder` once all are there.
+pub fn write_whole(folder: &Path, write: impl FnOnce(&Path) -> Result<()>) -> Result<()> {
     let beside = existing(folder);
     let mut builder = tempfile::Builder::new();
     // Temporary folders are private by default; this one becomes the result.
@@ -44,7 +49,7 @@ pub fn write(folder: &Path, bodies: &[Shown<'_>], cloths: &[Shown<'_>], metrics:
         .prefix(".toile-unfinished-")
         .tempdir_in(beside)
         .with_context(|| format!("cannot write to {}", beside.display()))?;
-    write_files(unfinished.path(), bodies, cloths, metrics)?;
+    write(unfinished.path())?;
     interrupt::check()?;
     fs::create_dir_all(folder).with_context(|| format!("cannot create {}", folder.display()))?;
     for entry in fs::read_dir(unfinished.path())? {

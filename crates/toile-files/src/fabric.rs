@@ -99,6 +99,8 @@ fn fill(table: FabricTable, folder: &Path, name: &str, prefix: &str, depth: usiz
         Err(Found::malformed(place(), format!("it is {value} and must be {least}")))
     };
     let inherited_name = base.map_or(name, |base| base.name.as_str());
+    // Without a base, and without a word on it, bending is left to the bend springs.
+    let bending_rigidity = table.bending_rigidity.or(base.is_none().then_some(0.0));
     Ok(Fabric {
         name: table.name.unwrap_or_else(|| inherited_name.into()),
         areal_density: given("areal_density", table.areal_density, |f| f.areal_density, false)?,
@@ -110,6 +112,7 @@ fn fill(table: FabricTable, folder: &Path, name: &str, prefix: &str, depth: usiz
         )?,
         shear_stiffness: given("shear_stiffness", table.shear_stiffness, |f| f.shear_stiffness, true)?,
         bend_stiffness: given("bend_stiffness", table.bend_stiffness, |f| f.bend_stiffness, true)?,
+        bending_rigidity: given("bending_rigidity", bending_rigidity, |f| f.bending_rigidity, true)?,
         damping: given("damping", table.damping, |f| f.damping, true)?,
         thickness: given("thickness", table.thickness, |f| f.thickness, true)?,
         friction: given("friction", table.friction, |f| f.friction, true)?,

@@ -95,6 +95,7 @@ pub(crate) struct FabricTable {
     pub structural_stiffness: Option<f64>,
     pub shear_stiffness: Option<f64>,
     pub bend_stiffness: Option<f64>,
+    pub bending_rigidity: Option<f64>,
     pub damping: Option<f64>,
     pub thickness: Option<f64>,
     pub friction: Option<f64>,

@@ -3,6 +3,7 @@
 //! [`Model`] is what the solvers (GPU and reference) read. It is built once on the CPU and never changes.
 
 mod assemble;
+mod bending;
 mod colouring;
 mod csr;
 mod dressing;

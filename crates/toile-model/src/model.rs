@@ -56,6 +56,10 @@ pub struct Model {
     pub particle_quads: Csr<u32>,
     /// Stiffness of one structural, shear and bend spring [N/m], in this order.
     pub stiffness: [f32; 3],
+    /// Bending rigidity by areal density [m⁴/s²]; 0 leaves bending to the stiffness of the bend springs.
+    pub bending: f64,
+    /// Smallest part of the bending rigidity that the step carries anywhere [1]; 1 is all of it.
+    pub bending_carried: f64,
     /// Elongation that the limits allow [1].
     pub threshold: f32,
     /// The rule that the limits are made for.
@@ -99,7 +103,8 @@ pub struct Spring {
 pub struct Link {
     /// The particle at the other end.
     pub other: u32,
-    /// Rest length [m].
+    /// Rest length [m]. With a bending rigidity that of a bend spring is longer than in the flat panel and that of a structural spring
+    /// shorter, also below 0, so that they push and pull in the flat cloth.
     pub rest_length: f32,
     /// Stiffness [N/m].
     pub stiffness: f32,

@@ -52,7 +52,9 @@ impl Model {
         if model.rule == Rule::Hierarchical {
             model.attachments = attachments(&flat, &model.inverse_masses, &pin_groups(sheet), model.stretch());
         }
-        model.complete()
+        let mut model = model.complete();
+        model.add_bending();
+        model
     }
 
     /// The open model of a garment: panels where they are placed, seams as springs of zero rest length and as pairs to close.
@@ -104,7 +106,9 @@ impl Model {
         });
         model.springs.extend(seam_springs);
         model.springs.sort_by_key(|s| (s.ends, s.kind));
-        Ok(model.complete())
+        let mut model = model.complete();
+        model.add_bending();
+        Ok(model)
     }
 
     /// Particles, masses and springs of flat meshes.
@@ -131,6 +135,7 @@ impl Model {
             flat: flat.iter().map(|p| p.as_vec2()).collect(),
             quads,
             stiffness,
+            bending: fabric.bending_rigidity / fabric.areal_density,
             threshold: fabric.threshold as f32,
             rule: settings.velocity_modification.rule,
             step_wanted: step_wanted(settings),

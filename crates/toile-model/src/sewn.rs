@@ -24,6 +24,7 @@ impl Model {
             threshold: self.threshold,
             rule: self.rule,
             stiffness: self.stiffness,
+            bending: self.bending,
             step_wanted: self.step_wanted,
             ..Self::default()
         };
@@ -47,7 +48,9 @@ impl Model {
             let flat: Vec<DVec2> = self.flat.iter().map(|p| p.as_dvec2()).collect();
             model.add_strands(&Cloth::new(&self.quads, &self.panels, &flat, &member_of, count));
         }
-        (model.complete(), merge)
+        let mut model = model.complete();
+        model.add_bending();
+        (model, merge)
     }
 
     /// For each particle the one it becomes, and the other way round. Merged particles stand where their first member stood.

@@ -1,4 +1,5 @@
-//! The CPU answer of every kernel, file for file, and the exact distance to a mesh.
+//! The CPU answer of every kernel, file for file, the exact distance to a mesh, and collision in
+//! object space as a baseline.
 //!
 //! [`Reference`] lives the life of the GPU simulation: built from a model, stepped, read. Every kernel is also one plain
 //! function in [`step`] or [`frame`]. The order of operations is part of the answer: all arithmetic is f32, unfused and left
@@ -11,11 +12,13 @@ mod digest;
 mod exact_distance;
 pub mod frame;
 pub mod maps;
+mod object_space;
 mod particles;
 mod reference;
 pub mod step;
 
 pub use contact::{Contact, Probe};
 pub use exact_distance::{ExactDistance, PenetrationSummary};
+pub use object_space::ObjectSpace;
 pub use particles::{Ball, Lag, Midpoints, Particles};
 pub use reference::{Colliders, Reference};

@@ -4,6 +4,7 @@ mod adapters;
 mod dress;
 mod outfit;
 mod plan;
+mod report;
 mod rules;
 mod run;
 mod walk;
@@ -20,6 +21,7 @@ pub fn run(command: &Command) -> Result<()> {
         Command::Rules(arguments) => rules::run(arguments),
         Command::Run(arguments) => run::run(arguments),
         Command::Plan(arguments) => plan::run(arguments),
+        Command::Report(arguments) => report::run(arguments),
         Command::Adapters(arguments) => adapters::run(arguments),
     }
 }

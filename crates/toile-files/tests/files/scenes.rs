@@ -121,7 +121,7 @@ fn wrong_overrides_name_the_key_and_what_there_is() {
         .collect();
     insta::assert_snapshot!(messages.join("\n"), @r#"
     hang.toml, key "speed": unknown field `speed`, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `wind`, `spacing`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`
-    hang.toml, key "fabric": unknown field `colour`, expected one of `base`, `name`, `areal_density`, `structural_stiffness`, `shear_stiffness`, `bend_stiffness`, `damping`, `thickness`, `friction`, `threshold`
+    hang.toml, key "fabric": unknown field `colour`, expected one of `base`, `name`, `areal_density`, `structural_stiffness`, `shear_stiffness`, `bend_stiffness`, `bending_rigidity`, `damping`, `thickness`, `friction`, `threshold`
     hang.toml, key "n": it is 1 and must be 2 to 8192
     hang.toml, key "n": it is 100000 and must be 2 to 8192
     hang.toml, key "n": invalid type: string "many", expected u32

@@ -1,5 +1,6 @@
 //! What a model must be, on grids, shapes, seams, real garments and random outlines.
 
+mod bending;
 mod garments;
 mod long_limits;
 

@@ -10,6 +10,8 @@ pub fn settings(spacing: f64) -> Settings {
     settings.spacing = spacing;
     // A rule under which the links keep the stiffness of their springs.
     settings.velocity_modification.rule = Rule::Average;
+    // And their rest lengths.
+    settings.fabric.bending_rigidity = 0.0;
     settings
 }
 

@@ -36,13 +36,12 @@ impl fmt::Display for Difference {
 /// Two NaN agree whatever their payload and sign, which IEEE 754 leaves open; minus and plus zero do not.
 pub fn first_difference(device: &[u32], reference: &[u32]) -> Option<Difference> {
     assert_eq!(device.len(), reference.len(), "the arrays that are compared have one length");
-    let nan = |bits: u32| f32::from_bits(bits).is_nan();
     let mut found: Option<Difference> = None;
     for (index, (&device, &reference)) in device.iter().zip(reference).enumerate() {
-        if device == reference || (nan(device) && nan(reference)) {
+        if agree(device, reference) {
             continue;
         }
-        let ulps = ordered(device).abs_diff(ordered(reference));
+        let ulps = ulps(device, reference);
         match &mut found {
             None => found = Some(Difference { index, device, reference, count: 1, of: 0, ulps }),
             Some(difference) => {
@@ -52,6 +51,16 @@ pub fn first_difference(device: &[u32], reference: &[u32]) -> Option<Difference>
         }
     }
     found.map(|difference| Difference { of: device.len(), ..difference })
+}
+
+/// Distance of two words in units in the last place; 0 when they agree. Two NaN agree.
+pub fn ulps(device: u32, reference: u32) -> u32 {
+    if agree(device, reference) { 0 } else { ordered(device).abs_diff(ordered(reference)) }
+}
+
+fn agree(device: u32, reference: u32) -> bool {
+    let nan = |bits: u32| f32::from_bits(bits).is_nan();
+    device == reference || (nan(device) && nan(reference))
 }
 
 /// Maps the bits of floats to integers in the order of their values, so that neighbours differ by one.

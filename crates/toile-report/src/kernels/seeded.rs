@@ -1,24 +1,27 @@
 //! Seeded input of any size that leads into every branch of a kernel.
 
-use crate::input::{Input, Posed};
+use super::input::{Input, Posed};
+use crate::shapes::{box_mesh, uv_sphere};
+use crate::{Gpu, Layers, Random};
 use glam::{DVec3, Vec3, Vec4, dvec3, vec3};
-use std::sync::OnceLock;
-use toile_gpu::Surface;
+use toile::gpu::{GpuError, Surface};
+use toile::model::{Attachment, Csr, Hold, Limit, Link, MapFrame, Model, NO_CORNER, SeamPair, StepSettings, Strand};
+use toile::scene::{Displacement, Fabric, Friction, Influence, Mesh, Morphs, Pose, Settings, Skin, Wind};
 use toile_kernels::{Domain, Kernel, TABLE};
-use toile_model::{Attachment, Csr, Hold, Limit, Link, MapFrame, Model, NO_CORNER, SeamPair, StepSettings, Strand};
 use toile_reference::{Ball, Contact, Lag, Midpoints, Particles, Probe, frame};
-use toile_scene::{Displacement, Friction, Influence, Morphs, Pose, Skin, Wind};
-use toile_workspace::{Layers, Random, box_mesh, gpu, settings, uv_sphere};
 
 /// What the numbers of a step are: together these lead into every branch that the settings decide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Variant {
+    /// Coulomb friction, everything on.
     Coulomb,
+    /// The papers' friction, and another wind.
     Papers,
     /// No gravity, and the sphere alone.
     Weightless,
 }
 
+/// All of them.
 pub const VARIANTS: [Variant; 3] = [Variant::Coulomb, Variant::Papers, Variant::Weightless];
 
 /// Velocity of the air [m/s]; few digits, so that the mean of four such velocities is exact.
@@ -35,82 +38,100 @@ struct Counts {
     holds: u32,
 }
 
-/// Input on which `kernel` works on `items` items.
-pub fn input(kernel: Kernel, items: u32, variant: Variant) -> Input {
-    let seed = u64::from(items) << 16 | (kernel as u64) << 4 | variant as u64;
-    let random = &mut Random::new(seed);
-    let domain = TABLE.iter().find(|row| row.kernel == kernel).expect("every kernel has a row").domain;
-    let counts = counts(domain, items);
-    let settings = step_settings(variant);
-    let contacts: Vec<Contact> = (0..counts.particles).map(|_| contact(random)).collect();
-    let particles = particles(random, &contacts);
-    let (mut span, limits, seam_pairs) = pairs(random, &particles, &counts, domain);
-    let (strands, strand_particles, strand_lengths) = strands(random, &particles, &counts, domain);
-    if domain == Domain::StrandColour {
-        span = counts.others..counts.others + items;
+/// Maps that the input of the kernels looks into.
+#[derive(Debug)]
+pub struct Seeds {
+    seed: u64,
+    layers: Layers,
+    moving_layers: Layers,
+}
+
+impl Seeds {
+    /// Draws the maps. Another seed gives other numbers everywhere else.
+    ///
+    /// # Errors
+    /// [`GpuError`] when the device is lost.
+    pub fn new(gpu: &Gpu, seed: u64) -> Result<Self, GpuError> {
+        Ok(Self { seed, layers: layers(gpu)?, moving_layers: moving_layers(gpu)? })
     }
-    let quads = quads(random, &counts);
-    let midpoints = Midpoints {
-        positions: (0..counts.quads).map(|_| random.vector(0.6)).collect(),
-        velocities: (0..counts.quads).map(|_| random.vector(2.0)).collect(),
-    };
-    let (open, members) = open_particles(random, counts.particles);
-    let (holds, held_particles) = holds(random, &particles, counts.holds);
-    let (skin, pose, body) = body(random, if domain == Domain::Vertex { items } else { 1 });
-    let mut input = Input {
-        // Holds and strands take a whole workgroup.
-        invocations: if matches!(domain, Domain::Hold | Domain::StrandColour) { 64 * items } else { items },
-        ball: Ball {
-            centre: vec3(0.1, 0.0, -0.05),
-            radius: 0.35,
-            velocity: vec3(0.5, 0.0, 0.2),
-            spin: vec3(0.3, -1.0, 2.0),
-        },
-        after_maps: variant != Variant::Weightless,
-        lag: Lag::of(3, 8, settings.dt),
-        layers: if kernel == Kernel::SampleMovingMaps { moving_layers().clone() } else { layers().clone() },
-        rate: if variant == Variant::Weightless { 0.0 } else { 120.0 },
-        open,
-        members,
-        copies: particles.clone(),
-        quad_winds: (0..counts.quads).map(|_| random.vector(0.02)).collect(),
-        forces: (0..counts.particles).map(|i| force(random, i, &contacts[i as usize])).collect(),
-        links: links(random, counts.particles),
-        strands,
-        strand_particles,
-        strand_lengths,
-        attachments: attachments(random, &particles),
-        limits,
-        seam_pairs,
-        span,
-        holds,
-        held_particles,
-        particle_quads: Csr::from_rows((0..counts.particles).map(|_| {
-            let row = if counts.quads == 0 { 0 } else { random.below(5) };
-            (0..row).map(|_| random.below(counts.quads)).collect::<Vec<_>>()
-        })),
-        quads,
-        midpoints,
-        probes: (0..counts.particles + counts.quads).map(|_| probe(random)).collect(),
-        contacts,
-        normals: vec![Vec3::ZERO; counts.particles as usize],
-        energy_partials: (0..counts.partials).map(|_| random.between(0.0, 1e-3)).collect(),
-        status: Default::default(),
-        settings,
-        particles,
-        skin,
-        pose,
-        body,
-    };
-    input.copies.positions.fill(Vec3::ZERO);
-    input.copies.velocities.fill(Vec3::ZERO);
-    place_at_the_edges(random, &mut input);
-    if kernel == Kernel::LongestLimit {
-        let status = frame::limit_status(&input.particles.positions, &input.limits, input.settings.threshold);
-        input.status.elongation_max = status.elongation_max.to_bits();
+
+    /// Input on which `kernel` works on `items` items.
+    pub fn input(&self, kernel: Kernel, items: u32, variant: Variant) -> Input {
+        let seed = (self.seed << 40) ^ (u64::from(items) << 16) | (kernel as u64) << 4 | variant as u64;
+        let random = &mut Random::new(seed);
+        let domain = TABLE.iter().find(|row| row.kernel == kernel).expect("every kernel has a row").domain;
+        let counts = counts(domain, items);
+        let settings = step_settings(variant);
+        let contacts: Vec<Contact> = (0..counts.particles).map(|_| contact(random)).collect();
+        let particles = particles(random, &contacts);
+        let (mut span, limits, seam_pairs) = pairs(random, &particles, &counts, domain);
+        let (strands, strand_particles, strand_lengths) = strands(random, &particles, &counts, domain);
+        if domain == Domain::StrandColour {
+            span = counts.others..counts.others + items;
+        }
+        let quads = quads(random, &counts);
+        let midpoints = Midpoints {
+            positions: (0..counts.quads).map(|_| random.vector(0.6)).collect(),
+            velocities: (0..counts.quads).map(|_| random.vector(2.0)).collect(),
+        };
+        let (open, members) = open_particles(random, counts.particles);
+        let (holds, held_particles) = holds(random, &particles, counts.holds);
+        let (skin, pose, body) = body(random, if domain == Domain::Vertex { items } else { 1 });
+        let mut input = Input {
+            // Holds and strands take a whole workgroup.
+            invocations: if matches!(domain, Domain::Hold | Domain::StrandColour) { 64 * items } else { items },
+            ball: Ball {
+                centre: vec3(0.1, 0.0, -0.05),
+                radius: 0.35,
+                velocity: vec3(0.5, 0.0, 0.2),
+                spin: vec3(0.3, -1.0, 2.0),
+            },
+            after_maps: variant != Variant::Weightless,
+            lag: Lag::of(3, 8, settings.dt),
+            layers: if kernel == Kernel::SampleMovingMaps { &self.moving_layers } else { &self.layers }.clone(),
+            rate: if variant == Variant::Weightless { 0.0 } else { 120.0 },
+            open,
+            members,
+            copies: particles.clone(),
+            quad_winds: (0..counts.quads).map(|_| random.vector(0.02)).collect(),
+            forces: (0..counts.particles).map(|i| force(random, i, &contacts[i as usize])).collect(),
+            links: links(random, counts.particles),
+            strands,
+            strand_particles,
+            strand_lengths,
+            attachments: attachments(random, &particles),
+            limits,
+            seam_pairs,
+            span,
+            holds,
+            held_particles,
+            particle_quads: Csr::from_rows((0..counts.particles).map(|_| {
+                let row = if counts.quads == 0 { 0 } else { random.below(5) };
+                (0..row).map(|_| random.below(counts.quads)).collect::<Vec<_>>()
+            })),
+            quads,
+            midpoints,
+            probes: (0..counts.particles + counts.quads).map(|_| probe(random)).collect(),
+            contacts,
+            normals: vec![Vec3::ZERO; counts.particles as usize],
+            energy_partials: (0..counts.partials).map(|_| random.between(0.0, 1e-3)).collect(),
+            status: Default::default(),
+            settings,
+            particles,
+            skin,
+            pose,
+            body,
+        };
+        input.copies.positions.fill(Vec3::ZERO);
+        input.copies.velocities.fill(Vec3::ZERO);
+        place_at_the_edges(random, &mut input);
+        if kernel == Kernel::LongestLimit {
+            let status = frame::limit_status(&input.particles.positions, &input.limits, input.settings.threshold);
+            input.status.elongation_max = status.elongation_max.to_bits();
+        }
+        carry_by_the_wind(&mut input);
+        input
     }
-    carry_by_the_wind(&mut input);
-    input
 }
 
 fn counts(domain: Domain, items: u32) -> Counts {
@@ -133,7 +154,8 @@ fn counts(domain: Domain, items: u32) -> Counts {
 }
 
 fn step_settings(variant: Variant) -> StepSettings {
-    let base = StepSettings::new(&settings(0.03), &Model::default());
+    let base =
+        StepSettings::new(&Settings::new(Fabric::preset("cotton").expect("cotton is a preset")), &Model::default());
     let base = StepSettings {
         dt: 1.0 / 700.0,
         damping: 0.7,
@@ -363,31 +385,25 @@ fn open_particles(random: &mut Random, sewn: u32) -> (Particles, Csr<u32>) {
 }
 
 /// Maps in which the front and the back see different bodies.
-fn layers() -> &'static Layers {
-    static LAYERS: OnceLock<Layers> = OnceLock::new();
-    LAYERS.get_or_init(|| {
-        let ball = uv_sphere(vec3(-0.05, 0.0, 0.0), 0.4, 16);
-        let block = box_mesh(vec3(0.0, -0.45, -0.55), vec3(0.25, 0.1, -0.1));
-        Layers::draw(gpu(), &[(&ball, 0.005), (&block, 0.01)], 0.031)
-    })
+fn layers(gpu: &Gpu) -> Result<Layers, GpuError> {
+    let [ball, block] = bodies();
+    Layers::draw(gpu, &[(&ball, 0.005), (&block, 0.01)], 0.031)
 }
 
 /// The same bodies, on their way.
-fn moving_layers() -> &'static Layers {
-    static LAYERS: OnceLock<Layers> = OnceLock::new();
-    LAYERS.get_or_init(|| {
-        let random = &mut Random::new(7);
-        let surfaces =
-            [uv_sphere(vec3(-0.05, 0.0, 0.0), 0.4, 16), box_mesh(vec3(0.0, -0.45, -0.55), vec3(0.25, 0.1, -0.1))].map(
-                |mesh| {
-                    let velocities: Vec<Vec4> = mesh.positions.iter().map(|_| random.vector(2.0).extend(0.0)).collect();
-                    let buffer = gpu().upload(bytemuck::cast_slice(&velocities), wgpu::BufferUsages::VERTEX);
-                    Surface { velocities: Some(buffer), ..Surface::new(&gpu().device, &mesh) }
-                },
-            );
-        let frame = MapFrame::around([vec3(-0.47, -0.47, -0.57), vec3(0.37, 0.42, 0.42)], 0.031);
-        Layers::draw_surfaces(gpu(), &[(&surfaces[0], 0.005), (&surfaces[1], 0.01)], frame)
-    })
+fn moving_layers(gpu: &Gpu) -> Result<Layers, GpuError> {
+    let random = &mut Random::new(7);
+    let surfaces = bodies().map(|mesh| {
+        let velocities: Vec<Vec4> = mesh.positions.iter().map(|_| random.vector(2.0).extend(0.0)).collect();
+        let buffer = gpu.upload(bytemuck::cast_slice(&velocities), wgpu::BufferUsages::VERTEX);
+        Surface { velocities: Some(buffer), ..Surface::new(&gpu.device, &mesh) }
+    });
+    let frame = MapFrame::around([vec3(-0.47, -0.47, -0.57), vec3(0.37, 0.42, 0.42)], 0.031);
+    Layers::draw_surfaces(gpu, &[(&surfaces[0], 0.005), (&surfaces[1], 0.01)], frame)
+}
+
+fn bodies() -> [Mesh; 2] {
+    [uv_sphere(vec3(-0.05, 0.0, 0.0), 0.4, 16), box_mesh(vec3(0.0, -0.45, -0.55), vec3(0.25, 0.1, -0.1))]
 }
 
 /// A body whose vertices hang on none to a few joints and are displaced by none to a few morph targets.

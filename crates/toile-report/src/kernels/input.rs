@@ -1,68 +1,103 @@
 //! Everything a kernel may read or write, on the side of the reference, and its bytes on the device.
 
+use super::Inputs;
+use crate::Layers;
 use encase::{ShaderType, StorageBuffer, UniformBuffer, internal::WriteInto};
 use glam::{DVec3, Vec3, Vec4};
 use std::ops::Range;
-use toile_gpu::BodyMaps;
+use toile::gpu::BodyMaps;
+use toile::model::{Attachment, Csr, Hold, Limit, Link, Model, SeamPair, StepSettings, Strand};
+use toile::scene::{Friction, Pose, Skin, Wind};
 use toile_kernels::structs;
-use toile_model::{Attachment, Csr, Hold, Limit, Link, Model, SeamPair, StepSettings, Strand};
 use toile_reference::{Ball, Contact, Lag, Midpoints, Particles, Probe};
-use toile_scene::{Friction, Pose, Skin, Wind};
-use toile_workspace::{Inputs, Layers};
 
 /// Everything a kernel may read or write.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub struct Input {
     /// Number of invocations that the kernel under test needs.
     pub invocations: u32,
+    /// Numbers of the step.
     pub settings: StepSettings,
+    /// The particles.
     pub particles: Particles,
     /// Particles of the open model, for the handover.
     pub open: Particles,
+    /// For each particle the open particles that it is made of.
     pub members: Csr<u32>,
+    /// Where the state is copied to.
     pub copies: Particles,
+    /// Force on each particle [N].
     pub forces: Vec<Vec3>,
+    /// Force of the air on each quad [N].
     pub quad_winds: Vec<Vec3>,
+    /// Springs of each particle.
     pub links: Csr<Link>,
+    /// Limits of all colours.
     pub limits: Vec<Limit>,
+    /// Strands of all colours.
     pub strands: Vec<Strand>,
+    /// Particles of the strands.
     pub strand_particles: Vec<u32>,
+    /// Lengths of their limits [m].
     pub strand_lengths: Vec<f32>,
+    /// Pins of each particle.
     pub attachments: Csr<Attachment>,
+    /// Seam pairs of all colours.
     pub seam_pairs: Vec<SeamPair>,
     /// The items of the colour that the dispatch works on.
     pub span: Range<u32>,
+    /// Held edges.
     pub holds: Vec<Hold>,
+    /// Particles of the held edges.
     pub held_particles: Vec<u32>,
+    /// Quads and triangles.
     pub quads: Vec<[u32; 4]>,
+    /// Quads of each particle.
     pub particle_quads: Csr<u32>,
+    /// Midpoints of the quads.
     pub midpoints: Midpoints,
     /// Of the particles, then of the quads.
     pub probes: Vec<Probe>,
+    /// Contacts of the last step.
     pub contacts: Vec<Contact>,
+    /// Normals of the particles.
     pub normals: Vec<Vec3>,
+    /// Energies of groups [J].
     pub energy_partials: Vec<f32>,
+    /// What the frame reports.
     pub status: structs::Status,
+    /// The sphere.
     pub ball: Ball,
     /// Whether the sphere is sampled after the maps.
     pub after_maps: bool,
+    /// Time from the step to that of the maps.
     pub lag: Lag,
+    /// Maps of the bodies.
     pub layers: Layers,
-    /// A body that moves: its skin, its pose, and what its kernels write.
+    /// Skin of a body that moves.
     pub skin: Skin,
+    /// Its pose.
     pub pose: Pose,
+    /// What the kernels of a body write.
     pub body: Posed,
+    /// How often the body takes a pose [1/s].
     pub rate: f32,
 }
 
 /// What the kernels of a body write, shape [vertex_count] each.
-#[derive(Clone, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Posed {
+    /// After the morph targets [m].
     pub morphed_positions: Vec<Vec3>,
+    /// After the morph targets.
     pub morphed_normals: Vec<Vec3>,
+    /// In the pose before [m].
     pub last_positions: Vec<Vec3>,
+    /// In the pose [m].
     pub positions: Vec<Vec3>,
+    /// In the pose.
     pub normals: Vec<Vec3>,
+    /// From the pose before to this [m/s].
     pub velocities: Vec<Vec3>,
 }
 
@@ -107,7 +142,7 @@ impl Input {
     }
 
     /// The morph targets of the body.
-    pub fn morphs(&self) -> &toile_scene::Morphs {
+    pub fn morphs(&self) -> &toile::scene::Morphs {
         self.skin.morphs.as_ref().expect("the seeded body has morph targets")
     }
 
@@ -259,7 +294,7 @@ impl Inputs for Input {
             })),
             "energy_partials" => bytemuck::cast_slice(&self.energy_partials).to_vec(),
             "status" => array([self.status].into_iter()),
-            other => panic!("the kernels name a buffer {other} that the tests do not know"),
+            other => panic!("the kernels name a buffer {other} that the input does not know"),
         }
     }
 

@@ -1,11 +1,11 @@
 //! Bodies as the maps show them, on the device and for the reference.
 
-use crate::Gpu;
+use super::Gpu;
 use glam::Vec3;
 use std::sync::Arc;
-use toile_gpu::{BodyMaps, Surface, readback};
-use toile_model::MapFrame;
-use toile_scene::Mesh;
+use toile::gpu::{BodyMaps, GpuError, Surface, readback};
+use toile::model::MapFrame;
+use toile::scene::Mesh;
 
 /// The maps of some bodies, drawn by the device.
 #[derive(Clone, Debug)]
@@ -18,7 +18,13 @@ pub struct Layers {
 
 impl Layers {
     /// Draws bodies, each with the thickness of the cloth on it [m], with texels of the edge length `texel` [m].
-    pub fn draw(gpu: &Gpu, bodies: &[(&Mesh, f32)], texel: f32) -> Self {
+    ///
+    /// # Errors
+    /// [`GpuError`] when the maps do not fit the device.
+    ///
+    /// # Panics
+    /// When no body has a vertex.
+    pub fn draw(gpu: &Gpu, bodies: &[(&Mesh, f32)], texel: f32) -> Result<Self, GpuError> {
         // The frame of the reference's maps: around the vertices after they have been moved out.
         let corners: Vec<Vec3> = bodies
             .iter()
@@ -30,7 +36,10 @@ impl Layers {
     }
 
     /// Draws bodies into maps of a given frame.
-    pub fn draw_in(gpu: &Gpu, bodies: &[(&Mesh, f32)], frame: MapFrame) -> Self {
+    ///
+    /// # Errors
+    /// [`GpuError`] when the maps do not fit the device.
+    pub fn draw_in(gpu: &Gpu, bodies: &[(&Mesh, f32)], frame: MapFrame) -> Result<Self, GpuError> {
         let surfaces: Vec<_> =
             bodies.iter().map(|(mesh, thickness)| (Surface::new(&gpu.device, mesh), *thickness)).collect();
         let drawn: Vec<_> = surfaces.iter().map(|(surface, thickness)| (surface, *thickness)).collect();
@@ -38,21 +47,27 @@ impl Layers {
     }
 
     /// Draws surfaces of the device; maps of moving bodies when they have velocities.
-    pub fn draw_surfaces(gpu: &Gpu, surfaces: &[(&Surface, f32)], frame: MapFrame) -> Self {
+    ///
+    /// # Errors
+    /// [`GpuError`] when the maps do not fit the device.
+    pub fn draw_surfaces(gpu: &Gpu, surfaces: &[(&Surface, f32)], frame: MapFrame) -> Result<Self, GpuError> {
         let moving = surfaces.iter().any(|(surface, _)| surface.velocities.is_some());
-        let maps = BodyMaps::new(&gpu.device, frame, moving).unwrap_or_else(|error| panic!("{error}"));
-        gpu.run(|encoder| maps.record(&gpu.device, encoder, frame, surfaces));
-        let read = read_maps(gpu, &maps, frame);
-        Self { maps: Arc::new(maps), read }
+        let maps = BodyMaps::new(&gpu.device, frame, moving)?;
+        gpu.run(|encoder| maps.record(&gpu.device, encoder, frame, surfaces))?;
+        let read = read_maps(gpu, &maps, frame)?;
+        Ok(Self { maps: Arc::new(maps), read })
     }
 }
 
 /// The texels of maps that show the bodies in `frame`.
-pub fn read_maps(gpu: &Gpu, maps: &BodyMaps, frame: MapFrame) -> toile_reference::maps::BodyMaps {
-    toile_reference::maps::BodyMaps {
+///
+/// # Errors
+/// [`GpuError::Device`] when the device is lost.
+pub fn read_maps(gpu: &Gpu, maps: &BodyMaps, frame: MapFrame) -> Result<toile_reference::maps::BodyMaps, GpuError> {
+    Ok(toile_reference::maps::BodyMaps {
         frame,
-        depth: readback::read_depth(&gpu.device, &gpu.queue, maps).expect("the device answers"),
-        normals: readback::read_normals(&gpu.device, &gpu.queue, maps).expect("the device answers"),
-        velocities: readback::read_velocities(&gpu.device, &gpu.queue, maps).expect("the device answers"),
-    }
+        depth: readback::read_depth(&gpu.device, &gpu.queue, maps)?,
+        normals: readback::read_normals(&gpu.device, &gpu.queue, maps)?,
+        velocities: readback::read_velocities(&gpu.device, &gpu.queue, maps)?,
+    })
 }

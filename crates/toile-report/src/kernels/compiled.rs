@@ -2,7 +2,7 @@
 
 use crate::Gpu;
 use std::collections::BTreeMap;
-use toile_gpu::{BodyMaps, Pass};
+use toile::gpu::{BodyMaps, GpuError, Pass};
 use toile_kernels::{Interface, Kernel, Resource};
 use wgpu::util::DeviceExt;
 
@@ -57,7 +57,13 @@ impl Compiled {
     }
 
     /// Runs the kernel on `items` items and gives the words of each buffer that it may write.
-    pub fn run(&self, gpu: &Gpu, items: u32, inputs: &impl Inputs) -> BTreeMap<String, Vec<u32>> {
+    ///
+    /// # Errors
+    /// [`GpuError::Device`] when the device is lost.
+    ///
+    /// # Panics
+    /// When the kernel looks into maps and there are none.
+    pub fn run(&self, gpu: &Gpu, items: u32, inputs: &impl Inputs) -> Result<BTreeMap<String, Vec<u32>>, GpuError> {
         let buffers: BTreeMap<&str, wgpu::Buffer> = self
             .interface
             .bindings
@@ -89,7 +95,7 @@ impl Compiled {
                 "depth_map" => maps.depth(),
                 "normal_map" => maps.normals(),
                 "velocity_map" => maps.velocities().expect("maps of moving bodies"),
-                other => panic!("the kernels name a texture {other} that the tests do not know"),
+                other => panic!("the kernels name a texture {other} that the input does not know"),
             };
             texture.create_view(&view)
         };
@@ -123,12 +129,12 @@ impl Compiled {
             compute.set_pipeline(&self.pipeline);
             compute.set_bind_group(0, &group, &[]);
             compute.dispatch_workgroups(x, y, 1);
-        });
+        })?;
         self.interface
             .bindings
             .iter()
             .filter(|binding| matches!(binding.resource, Resource::Storage { written: true, .. }))
-            .map(|binding| (binding.name.clone(), gpu.words(&buffers[binding.name.as_str()])))
+            .map(|binding| Ok((binding.name.clone(), gpu.words(&buffers[binding.name.as_str()])?)))
             .collect()
     }
 }

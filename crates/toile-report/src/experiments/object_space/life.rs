@@ -1,0 +1,120 @@
+//! The life of a sheet on the CPU with its collision either in image space or in object space, and the time of both parts.
+
+use std::time::{Duration, Instant};
+use toile::model::{Model, StepSettings};
+use toile_reference::maps::BodyMaps;
+use toile_reference::{Contact, Midpoints, ObjectSpace, Particles, Probe, frame, step};
+
+/// Where collision is tested.
+#[derive(Clone, Debug)]
+pub enum Collision {
+    /// In the maps of the body: particles and quad midpoints. D §5.
+    Image(BodyMaps),
+    /// Against the faces of the body: particles alone, as in D §7.
+    Object(ObjectSpace),
+}
+
+/// A sheet under the hierarchical rule, at rest body, no seams, no wind: the steps of [`toile_reference::Reference`] with a clock.
+#[derive(Debug)]
+pub struct Life<'a> {
+    model: &'a Model,
+    settings: StepSettings,
+    collision: &'a Collision,
+    particles: Particles,
+    contacts: Vec<Contact>,
+    /// Steps done.
+    pub steps: u32,
+    /// Time of collision detection and response so far.
+    pub collision_time: Duration,
+    /// Time of everything so far.
+    pub time: Duration,
+}
+
+impl<'a> Life<'a> {
+    /// A sheet at the start of its model.
+    pub fn new(model: &'a Model, settings: &StepSettings, collision: &'a Collision) -> Self {
+        Self {
+            model,
+            settings: settings.clone(),
+            collision,
+            particles: Particles::new(model),
+            contacts: vec![Contact::default(); model.positions.len()],
+            steps: 0,
+            collision_time: Duration::ZERO,
+            time: Duration::ZERO,
+        }
+    }
+
+    /// Does a step.
+    pub fn step(&mut self) {
+        let start = Instant::now();
+        let Self { model, settings, particles, .. } = self;
+        let dt = settings.dt;
+        let mut forces = step::spring_forces(particles, &model.links, settings);
+        step::reaction(&mut forces, particles, &self.contacts, settings);
+        step::euler(&mut particles.velocities, &forces, &particles.inverse_masses, dt);
+        for _ in 0..self.settings.sweeps {
+            self.sweep();
+            self.collide();
+        }
+        step::move_particles(&mut self.particles.positions, &self.particles.velocities, dt);
+        self.steps += 1;
+        self.time += start.elapsed();
+    }
+
+    fn sweep(&mut self) {
+        let Self { model, settings, particles, .. } = self;
+        step::limit_attachments(particles, &model.attachments, settings.dt);
+        let (line, lengths) = (&model.strand_particles, &model.strand_lengths);
+        for colour in model.strand_colours.iter().chain(&model.strand_colours) {
+            let strands = &model.strands[colour.start as usize..colour.end as usize];
+            step::limit_strands(particles, strands, line, lengths, settings.dt);
+        }
+        for colour in &model.loose_limit_colours {
+            let limits = &model.loose_limits[colour.start as usize..colour.end as usize];
+            step::limit_predictive(particles, limits, settings.dt);
+        }
+    }
+
+    fn collide(&mut self) {
+        let start = Instant::now();
+        let Self { model, settings, particles, .. } = self;
+        let (own, quads, midpoints) = match self.collision {
+            Collision::Image(maps) => {
+                let midpoints = step::quad_midpoints(&particles.positions, &particles.velocities, &model.quads);
+                let quads = step::sample_maps(&midpoints.positions, &midpoints.velocities, maps, settings);
+                let own = step::sample_maps(&particles.positions, &particles.velocities, maps, settings);
+                (own, quads, midpoints)
+            }
+            Collision::Object(body) => {
+                let own = body.probes(&particles.positions, &particles.velocities, settings);
+                let count = model.quads.len();
+                let nothing = vec![glam::Vec3::ZERO; count];
+                let midpoints = Midpoints { positions: nothing.clone(), velocities: nothing };
+                (own, vec![Probe::default(); count], midpoints)
+            }
+        };
+        let probes = step::Probes { particles: &own, quads: &quads };
+        self.contacts = step::collide(particles, &model.particle_quads, &midpoints, probes, settings);
+        self.collision_time += start.elapsed();
+    }
+
+    /// The particles.
+    pub fn particles(&self) -> &Particles {
+        &self.particles
+    }
+
+    /// Contacts of the last step.
+    pub fn contacts(&self) -> &[Contact] {
+        &self.contacts
+    }
+
+    /// Mean speed [m/s], the root of the mean square; NaN once a particle is not finite.
+    pub fn speed(&self) -> f64 {
+        if frame::particle_status(&self.particles).non_finite_count > 0 {
+            return f64::NAN;
+        }
+        let squares = self.particles.velocities.iter().map(|v| f64::from(v.length_squared()));
+        (squares.sum::<f64>() / self.particles.velocities.len() as f64).sqrt()
+    }
+}

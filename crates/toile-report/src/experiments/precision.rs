@@ -1,0 +1,59 @@
+//! Work-precision: which error costs how much.
+
+mod elongation;
+mod maps;
+mod position;
+mod refinement;
+
+pub use elongation::{Limited, Limiting, limited};
+pub use maps::{Coding, MapError, Offset, Probing, Shell, map_error, velocity_error};
+pub use position::{Scene, rest_error};
+pub use refinement::shape_errors;
+
+use crate::page::{Block, Section};
+use crate::{Experiment, Lab, LabError};
+use toile::scene::Rule;
+
+/// The row of the table.
+pub const EXPERIMENT: Experiment =
+    Experiment { name: "precision", title: "Work-precision: which error costs how much", minutes: [1.2, 18.0], run };
+
+/// Every rule of the velocity modification.
+const RULES: [(&str, Rule); 7] = [
+    ("none", Rule::None),
+    ("zero", Rule::Zero),
+    ("average", Rule::Average),
+    ("directional", Rule::Directional),
+    ("position", Rule::Position),
+    ("predictive", Rule::Predictive),
+    ("hierarchical", Rule::Hierarchical),
+];
+
+fn run(lab: &mut Lab) -> Result<Section, LabError> {
+    let lead = "What an error costs, in the four places where it comes from: limits that end before they converge, the length of the step, \
+                the spacing of the mesh, and the texels of the body's maps. A point further left is cheaper, further down more exact; a \
+                user picks the cheapest one whose error is small enough.";
+    let mut section = Section::new(&EXPERIMENT, lead);
+    let text = |words: &str| Block::Text(words.to_owned());
+    section
+        .blocks
+        .push(text("Limits: how far springs are stretched beyond the threshold, by rule, sweeps, step and spacing."));
+    section.blocks.extend(elongation::blocks(lab, [0.0, 0.4])?);
+    section.blocks.push(text(
+        "Step: where the sheet is, against the same springs in f64 with a step so short that the answer has converged. Symplectic Euler \
+         has order 1: half the step, half the error, until the rounding of f32 is larger.",
+    ));
+    section.blocks.extend(position::blocks(lab, [0.4, 0.65])?);
+    section.blocks.push(text(
+        "Mesh: where the cloth rests, as the spacing shrinks. The springs keep their stiffness at every spacing; for bend springs that \
+         means less stiffness of the cloth against bending, so this error need not shrink with the square of the spacing.",
+    ));
+    section.blocks.extend(refinement::blocks(lab, [0.65, 0.85])?);
+    section.blocks.push(text(
+        "Maps: what the cloth sees of the body, against its exact mesh. A point in contact is led out along the normal by the distance that \
+         the maps tell; what is left of its depth is one error, a point that moves although it should not the other. Two cameras do not see \
+         everything: armpits, the inside of the legs and folds of the body are told apart.",
+    ));
+    section.blocks.extend(maps::blocks(lab, [0.85, 1.0])?);
+    Ok(section)
+}

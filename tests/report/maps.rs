@@ -1,0 +1,34 @@
+//! What maps tell of a body, against its exact mesh.
+
+use crate::lab;
+use toile_reference::ExactDistance;
+use toile_report::experiments::precision::{Coding, MapError, Offset, Probing, Shell, map_error, velocity_error};
+use toile_report::shapes::uv_sphere;
+
+/// Errors on a sphere of 0.25 m, whose whole surface is seen, with texels of 0.5 cm.
+fn errors() -> [MapError; 3] {
+    let ball = uv_sphere(glam::Vec3::ZERO, 0.25, 32);
+    let exact = ExactDistance::new(&ball);
+    let shell = Shell::new(&ball, 3000, lab().seed);
+    [(Coding::Float, Offset::Normals), (Coding::EightBit, Offset::Normals), (Coding::Float, Offset::PixelLayers)]
+        .map(|(coding, offset)| map_error(&ball, &exact, &shell, Probing { texel: 0.005, coding, offset }))
+}
+
+#[test]
+fn maps_of_a_sphere_tell_its_surface_to_a_fraction_of_a_texel() {
+    let [float, coded, layers] = errors();
+    assert!(float.depth_mean < 1e-4 && float.depth_p99 < 2e-3 && float.false_contacts < 0.01, "{float:?}");
+    // A normal is off by 1/255 at most along each axis, which moves a plane by little at the distance of a texel.
+    assert!((coded.depth_mean - float.depth_mean).abs() < 1e-4, "{coded:?} {float:?}");
+    assert!(layers.depth_mean > 2.0 * float.depth_mean, "the papers' offset is uneven: {layers:?} {float:?}");
+    assert!(layers.false_contacts > float.false_contacts, "{layers:?} {float:?}");
+}
+
+/// Steps of 2·speed/255, even within them: speed·2/255/√12 for each of three components.
+#[test]
+fn velocities_in_eight_bits_have_the_error_of_their_steps() {
+    let [printed, corrected] = velocity_error(2.0, 1);
+    let theory = 3.0_f64.sqrt() * 4.0 / 255.0 / 12.0_f64.sqrt();
+    assert!((corrected / theory - 1.0).abs() < 0.02, "{corrected} m/s, not {theory} m/s");
+    assert!(printed > 0.5, "W eq. 9 as printed loses the velocity: {printed} m/s");
+}
