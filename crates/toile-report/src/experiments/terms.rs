@@ -15,7 +15,7 @@ pub const EXPERIMENT: Experiment =
     Experiment { name: "terms", title: "What each term costs and buys", minutes: [0.6, 7.0], run };
 
 fn run(lab: &mut Lab) -> Result<Section, LabError> {
-    let (n, frames) = lab.pick((13, 24), (33, 90));
+    let (n, frames) = lab.pick((13, 18), (33, 90));
     let caption = format!(
         "The same scene with a term of the model and without it. Sheets of 1 m × 1 m, {n} × {n} particles, 0.2 kg/m², springs of 20, 10 and 2 \
          N/m, threshold 5 %, hierarchical limits, four sweeps, 960 steps per second, {frames} frames of 1/60 s. hang: on two corners; \

@@ -140,7 +140,7 @@ fn draw_series(svg: &mut String, series: &Series, index: usize, [x, y]: [Span; 2
 fn draw_mark(svg: &mut String, [x, y]: [f64; 2], index: usize) {
     let colour = index % COLOUR_COUNT;
     // The outline in the colour, the inside too, but for every second shape.
-    let fill = if index.is_multiple_of(2) { format!("var(--c{colour})") } else { "var(--ground)".to_owned() };
+    let fill = if index.is_multiple_of(2) { format!("var(--c{colour})") } else { "none".to_owned() };
     let style = format!("class=\"mark\" stroke=\"var(--c{colour})\" fill=\"{fill}\"");
     match (index + index / COLOUR_COUNT) % 4 {
         0 => put(svg, format_args!("<circle {style} cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.5\"/>")),
