@@ -111,7 +111,7 @@ mod tests {
     fn linear_ticks_are_round_and_begin_at_zero_where_it_is_near() {
         let axis = Axis::linear("way", "m");
         assert_eq!(ticks(&axis, &[1.0, 9.3]), [0.0, 2.0, 4.0, 6.0, 8.0, 10.0]);
-        assert_eq!(ticks(&axis, &[101.0, 104.0]), [101.0, 102.0, 103.0, 104.0]);
+        assert_eq!(ticks(&axis, &[101.0, 104.0]), [101.0, 101.5, 102.0, 102.5, 103.0, 103.5, 104.0]);
         assert_eq!(ticks(&axis, &[]).len(), 6);
         assert!(ticks(&axis, &[3.0, 3.0]).len() > 3, "one value has an axis too");
     }
