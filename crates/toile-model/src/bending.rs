@@ -30,7 +30,8 @@ impl Model {
     /// that is left anywhere.
     pub(crate) fn add_bending(&mut self) {
         self.bending_carried = 1.0;
-        if !(self.bending > 0.0) {
+        let is_stiff = self.bending > 0.0;
+        if !is_stiff {
             return;
         }
         let mut hinges = self.hinges();

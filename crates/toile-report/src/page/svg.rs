@@ -40,7 +40,7 @@ pub(crate) const PLOT_STYLE: &str = "\
 .plot .theory{fill:none;stroke-width:1.3;stroke-dasharray:5 4}\
 .plot .mark{stroke-width:1.6}";
 
-/// A plot as an element of a page that has the styles [`COLOURS`] and [`PLOT_STYLE`].
+/// A plot as an element of a page that has the styles `COLOURS` and `PLOT_STYLE`.
 pub fn inline(plot: &Plot) -> String {
     draw(plot, "")
 }
