@@ -180,6 +180,8 @@ fn passed(speed: f64, swept: bool) -> usize {
     let model = Model::from_sheet(sheet, &scene.settings);
     let mut settings = StepSettings::new(&scene.settings, &model);
     settings.swept = swept;
+    // Cloth that may slide off the ball closes behind it.
+    settings.pressing = f32::INFINITY;
     let start = middle - DVec3::Z * 0.5;
     let end = 0.8 / speed;
     let key = |time: f64| RigidKey { time, translation: start + DVec3::Z * speed * time, rotation: DQuat::IDENTITY };

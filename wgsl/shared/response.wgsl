@@ -26,7 +26,7 @@ fn change_by(gain: f32, velocity: vec3<f32>, probe: Probe) -> vec3<f32> {
     var slip = vec3<f32>(0.0);
     if step.friction_law == COULOMB {
         let speed = length(tangential);
-        let stopped = step.friction * gain;
+        let stopped = step.friction * min(gain, step.pressing_speed);
         if speed > stopped {
             slip = tangential * ((speed - stopped) / speed);
         }

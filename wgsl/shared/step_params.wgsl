@@ -4,6 +4,7 @@ struct StepParams {
     dt: f32,                    // [s]
     damping: f32,               // viscous damping rate [1/s]
     push_speed: f32,            // largest speed on the way out of a body [m/s]
+    pressing_speed: f32,        // largest change of normal speed that friction counts [m/s]
     contact_margin: f32,        // [m]
     reflection: f32,            // C_refl of W eq. 15
     friction_law: u32,          // 0 Coulomb, 1 the papers'

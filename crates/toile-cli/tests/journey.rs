@@ -323,8 +323,8 @@ fn the_built_in_dress_is_sewn_and_comes_to_rest() {
 #[test]
 fn an_outer_garment_lies_over_an_inner_one_by_the_reference_too() {
     let journey = Journey::new();
-    let [shirt, skirt] = ["garments/shirt_sleeveless.json", "garments/skirt.json"].map(fixture);
-    let garments = ["--garment", shirt.as_str(), "--garment", skirt.as_str()];
+    let [skirt, shirt] = ["garments/skirt.json", "garments/shirt_sleeveless.json"].map(fixture);
+    let garments = ["--garment", skirt.as_str(), "--garment", shirt.as_str()];
     let base = ["dress", "--spacing", "6cm", "--quiet", "--backend", "reference"];
     let output = journey.run(&[&base[..], &garments[..]].concat());
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));

@@ -210,6 +210,7 @@ fn step_params(model: &Model, settings: &StepSettings) -> structs::StepParams {
         dt: settings.dt,
         damping: settings.damping,
         push_speed: settings.push_speed_per_sweep(),
+        pressing_speed: settings.pressing_speed_per_sweep(),
         contact_margin: settings.contact_margin,
         reflection: settings.reflection,
         friction_law,

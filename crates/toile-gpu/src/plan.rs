@@ -156,8 +156,7 @@ fn passes(row: &Row, model: &Model, needs: &Needs) -> Vec<Pass> {
         Domain::Hold => all(model.holds.len() as u32),
         Domain::Limit => all(model.limits.len() as u32),
         Domain::LimitColour => coloured(&limit_colours(model, needs.rule)),
-        // A strand pulls those that cross it out of shape: the second time over all of them mends most of that.
-        Domain::StrandColour => [coloured(&model.strand_colours), coloured(&model.strand_colours)].concat(),
+        Domain::StrandColour => coloured(&model.strand_colours),
         Domain::SeamPair => all(model.seam_pair_count()),
         Domain::SeamColour => coloured(&model.seam_colours),
         Domain::Workgroup => all(WORKGROUP_SIZE),

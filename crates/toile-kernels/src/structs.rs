@@ -14,6 +14,8 @@ pub struct StepParams {
     pub damping: f32,
     /// Largest speed on the way out of a body [m/s].
     pub push_speed: f32,
+    /// Largest change of normal speed that friction counts [m/s].
+    pub pressing_speed: f32,
     /// A point nearer than this is in contact [m].
     pub contact_margin: f32,
     /// C_refl of W eq. 15 [1].

@@ -61,7 +61,8 @@ pub enum DressingError {
     },
     /// The garment kept moving.
     #[error(
-        "the garment did not come to rest within {steps} steps: its particles have {energy:.2e} J each, more than {limit:.2e} J"
+        "the garment did not come to rest within {steps} steps: its particles have {energy:.2e} J each, more than {limit:.2e} J; \
+         a garment too tight for the body or the garments below it keeps moving: cut it wider, or wear it below them"
     )]
     NotAtRest {
         /// Steps draped.

@@ -4,6 +4,9 @@ use crate::Model;
 use glam::Vec3;
 use toile_scene::{Friction, Rule, Settings, Wind};
 
+/// Twenty times the weight of the cloth: of cotton about 30 Pa, as if it were drawn with 3 N/m around a waist [m/s²].
+const PRESSING: f32 = 200.0;
+
 /// The numbers of one step, the same for every particle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepSettings {
@@ -29,6 +32,9 @@ pub struct StepSettings {
     pub law: Friction,
     /// Coulomb coefficient μ [1].
     pub friction: f32,
+    /// Largest normal acceleration of a contact that friction counts [m/s²]. Where cloth is too tight to hold its limits, these press it
+    /// on the body without bound, as no yarn could; friction by that would hold every particle where it is, however stretched.
+    pub pressing: f32,
     /// Speed of a held edge towards its height, per metre from it [1/s].
     pub hold_rate: f32,
     /// Largest speed of a held edge towards its height [m/s].
@@ -62,6 +68,7 @@ impl StepSettings {
             reflection: settings.reflection as f32,
             law: settings.friction,
             friction: settings.fabric.friction as f32,
+            pressing: PRESSING,
             hold_rate: 10.0,
             hold_speed: 0.5,
             rule: settings.velocity_modification.rule,
@@ -76,6 +83,11 @@ impl StepSettings {
     /// The part of [`Self::push_speed`] that each of the sweeps has [m/s].
     pub fn push_speed_per_sweep(&self) -> f32 {
         self.push_speed / self.sweeps.max(1) as f32
+    }
+
+    /// The change of normal speed by one sweep that friction counts at most [m/s]: what [`Self::pressing`] gives in a step, in equal parts.
+    pub fn pressing_speed_per_sweep(&self) -> f32 {
+        self.pressing * self.dt / self.sweeps.max(1) as f32
     }
 }
 

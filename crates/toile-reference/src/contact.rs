@@ -52,7 +52,7 @@ pub(crate) fn change(velocity: Vec3, probe: &Probe, gain: f32, settings: &StepSe
         Friction::Papers { velocity_kept, .. } => tangential * velocity_kept as f32,
         Friction::Coulomb => {
             let speed = tangential.length();
-            let stopped = settings.friction * gain;
+            let stopped = settings.friction * gain.min(settings.pressing_speed_per_sweep());
             if speed > stopped { tangential * ((speed - stopped) / speed) } else { Vec3::ZERO }
         }
     };

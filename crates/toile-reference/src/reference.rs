@@ -40,6 +40,7 @@ pub struct Colliders {
 ///     damping: 0.0,
 ///     thickness: 0.001,
 ///     push_speed: 0.2,
+///     pressing: 200.0,
 ///     contact_margin: 1e-4,
 ///     reflection: 0.0,
 ///     law: Friction::Coulomb,
@@ -161,8 +162,7 @@ impl Reference {
         if settings.rule == Rule::Hierarchical {
             step::limit_attachments(particles, &model.attachments, settings.dt);
             let (line, lengths) = (&model.strand_particles, &model.strand_lengths);
-            // Strands pull each other out of shape, so that they come twice.
-            for colour in model.strand_colours.iter().chain(&model.strand_colours) {
+            for colour in &model.strand_colours {
                 step::limit_strands(particles, part(&model.strands, colour), line, lengths, settings.dt);
             }
             for colour in &model.loose_limit_colours {

@@ -32,7 +32,7 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// The default settings for a fabric: two sweeps of hierarchical limits, Coulomb friction, particles at 1 cm, texels of 0.5 cm (D eq. 11),
+    /// The default settings for a fabric: four sweeps of hierarchical limits, Coulomb friction, particles at 1 cm, texels of 0.5 cm (D eq. 11),
     /// 60 frames per second.
     pub fn new(fabric: Fabric) -> Self {
         Self {
@@ -91,9 +91,9 @@ pub struct VelocityModification {
 }
 
 impl VelocityModification {
-    /// A rule with the sweeps that it is made for: two of hierarchical limits, one of all others.
+    /// A rule with the sweeps that it is made for: four of hierarchical limits, one of all others.
     pub fn new(rule: Rule) -> Self {
-        Self { rule, sweeps: if rule == Rule::Hierarchical { 2 } else { 1 } }
+        Self { rule, sweeps: if rule == Rule::Hierarchical { 4 } else { 1 } }
     }
 }
 

@@ -21,6 +21,7 @@ pub fn settings() -> StepSettings {
         damping: 0.0,
         thickness: 1e-3,
         push_speed: 0.2,
+        pressing: f32::INFINITY,
         contact_margin: 1e-4,
         reflection: 0.0,
         law: Friction::Coulomb,

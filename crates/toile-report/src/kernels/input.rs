@@ -159,6 +159,7 @@ impl Input {
             dt: s.dt,
             damping: s.damping,
             push_speed: s.push_speed_per_sweep(),
+            pressing_speed: s.pressing_speed_per_sweep(),
             contact_margin: s.contact_margin,
             reflection: s.reflection,
             friction_law,

@@ -161,6 +161,7 @@ fn step_settings(variant: Variant) -> StepSettings {
         damping: 0.7,
         wind: Some(Wind { velocity: WIND, drag: 1.1, lift: 0.6 }),
         push_speed: 1.5,
+        pressing: 200.0,
         sweeps: 1,
         threshold: 0.05,
         contact_margin: 1e-3,

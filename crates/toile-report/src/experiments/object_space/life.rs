@@ -66,7 +66,7 @@ impl<'a> Life<'a> {
         let Self { model, settings, particles, .. } = self;
         step::limit_attachments(particles, &model.attachments, settings.dt);
         let (line, lengths) = (&model.strand_particles, &model.strand_lengths);
-        for colour in model.strand_colours.iter().chain(&model.strand_colours) {
+        for colour in &model.strand_colours {
             let strands = &model.strands[colour.start as usize..colour.end as usize];
             step::limit_strands(particles, strands, line, lengths, settings.dt);
         }
