@@ -12,7 +12,7 @@ use glam::{DVec3, Vec3};
 use support::Bench;
 use toile::gpu::readback;
 use toile::model::{Limit, Model, StepSettings};
-use toile::scene::{Body, Cloth, Rule, Scene, Settings, Sheet, VelocityModification};
+use toile::scene::{Body, Cloth, Rule, Scene, Settings, Sheet, Threshold, VelocityModification};
 use toile::{Colliders, Simulation};
 use toile_workspace::{Random, scene};
 
@@ -107,7 +107,7 @@ impl Row {
     fn measure(bench: &Bench, name: &str, n: u32, rule: Rule, options: &Options) -> Self {
         let mut scene = scene(name, &[("n", &n.to_string())]);
         scene.settings.velocity_modification = VelocityModification::new(rule);
-        scene.settings.fabric.threshold = options.threshold;
+        scene.settings.fabric.threshold = Threshold::even(options.threshold);
         let model = Model::from_sheet(sheet(&scene), &scene.settings);
         let settings = StepSettings::new(&scene.settings, &model);
         let sphere = scene.bodies.iter().find_map(|body| match body {

@@ -88,7 +88,7 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
             ends(&pairs, before, after, &mut see);
         }
         Kernel::LimitStrands => {
-            let pairs: Vec<_> = before.strand_limits().iter().map(|l| l.ends.map(|end| end as usize)).collect();
+            let pairs: Vec<_> = before.strand_limits().iter().map(|ends| ends.map(|end| end as usize)).collect();
             let pinned = |i: usize| weights[i] == 0.0;
             let either =
                 |wanted: &dyn Fn(usize) -> bool| pairs.iter().filter(|[a, b]| wanted(*a) || wanted(*b)).count();

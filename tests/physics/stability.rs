@@ -2,7 +2,7 @@
 
 use toile::{Error, Simulation};
 use toile_model::{Limit, Model, StepSettings};
-use toile_scene::{Cloth, Rule, VelocityModification};
+use toile_scene::{Cloth, Rule, Threshold, VelocityModification};
 use toile_workspace::{advance, gpu, scene};
 
 const FRAMES: u32 = 120;
@@ -49,6 +49,41 @@ fn no_rule_and_the_predictive_rule_stay_bounded() {
     let held = hang(32, Rule::Predictive);
     assert!(held.end.is_ok() && held.speed_max < FASTEST, "{} m/s", held.speed_max);
     assert!(held.elongation_max < 0.5 * free.elongation_max, "{} and {}", held.elongation_max, free.elongation_max);
+}
+
+/// Cloth that gives little along its yarns and shears easily.
+#[test]
+fn each_direction_keeps_its_own_threshold() {
+    let mut hang = scene("hang", &[("n", "25")]);
+    hang.settings.fabric.threshold = Threshold { warp: 0.015, weft: 0.03, shear: 0.12 };
+    let Cloth::Sheet(sheet) = &hang.cloths[0] else { panic!("hang has a sheet") };
+    let model = Model::from_sheet(sheet, &hang.settings);
+    let settings = StepSettings::new(&hang.settings, &model);
+    let mut simulation =
+        Simulation::new(&gpu().device, &model, &settings, Default::default()).expect("it fits the device");
+    let mut over_long = 0;
+    for _ in 0..FRAMES {
+        over_long = advance(&mut simulation).expect("it does not diverge").over_long_count;
+    }
+    let positions = gpu().vec3s(&simulation.frame().positions);
+    let mut most = [0.0_f32; 3];
+    for limit in &model.limits {
+        let [a, b] = limit.ends.map(|i| i as usize);
+        let way = (model.flat[b] - model.flat[a]).abs();
+        let direction = if way.x < 1e-6 {
+            0
+        } else if way.y < 1e-6 {
+            1
+        } else {
+            2
+        };
+        most[direction] = most[direction].max(positions[a].distance(positions[b]) / limit.rest_length - 1.0);
+    }
+    let [warp, weft, shear] = most;
+    assert_eq!(over_long, 0, "{most:?}");
+    assert!(warp > 0.005 && warp <= 0.015, "{warp}");
+    assert!(weft > 0.005 && weft <= 0.03, "{weft}");
+    assert!(shear > 0.04 && shear <= 0.12, "{shear}");
 }
 
 /// The threshold is 5 %, at every moment of the swing and at every size.

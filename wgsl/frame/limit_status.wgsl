@@ -16,7 +16,8 @@ fn limit_status(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workg
     if elongation > 0.0 {
         atomicMax(&status.elongation_max, bitcast<u32>(elongation));
     }
-    if elongation > step.threshold {
+    // The threshold along a spring is what its limit allows, by the part of it that limits hold.
+    if elongation * step.aim > limits[i].max_length / limits[i].rest_length - 1.0 {
         atomicAdd(&status.over_long_count, 1u);
     }
 }

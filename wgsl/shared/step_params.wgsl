@@ -19,7 +19,7 @@ struct StepParams {
     wind: vec3<f32>,            // velocity of the air [m/s]
     drag: f32,                  // drag coefficient of a plate across the wind
     lift: f32,                  // lift coefficient
-    threshold: f32,             // elongation that counts as over-long
+    aim: f32,                   // part of the threshold that the limits hold
     limit_count: u32,           // structural and shear springs, whose limits are the first
 }
 

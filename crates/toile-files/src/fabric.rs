@@ -1,10 +1,14 @@
 //! Fabrics from TOML.
 
 use crate::error::{Fault, FileError, Found, Place};
-use crate::scene_toml::{FabricTable, FabricToml};
+use crate::scene_toml::{FabricTable, FabricToml, ThresholdTable, ThresholdToml};
 use crate::{source, toml_text};
+use std::ops::RangeInclusive;
 use std::path::Path;
-use toile_scene::Fabric;
+use toile_scene::{Fabric, Threshold};
+
+/// Smallest and largest threshold of a fabric [1]. D §4.3 has 1 % to 15 %.
+const THRESHOLD_RANGE: RangeInclusive<f64> = 0.001..=0.15;
 
 /// How many files may name each other as base before it is a circle.
 const DEEPEST_BASE: usize = 8;
@@ -116,6 +120,32 @@ fn fill(table: FabricTable, folder: &Path, name: &str, prefix: &str, depth: usiz
         damping: given("damping", table.damping, |f| f.damping, true)?,
         thickness: given("thickness", table.thickness, |f| f.thickness, true)?,
         friction: given("friction", table.friction, |f| f.friction, true)?,
-        threshold: given("threshold", table.threshold, |f| f.threshold, false)?,
+        threshold: threshold(table.threshold, base.map(|f| f.threshold), &format!("{prefix}threshold"))?,
+    })
+}
+
+/// The threshold of a fabric; a direction that the table leaves out is that of the base.
+fn threshold(toml: Option<ThresholdToml>, base: Option<Threshold>, key: &str) -> Result<Threshold, Found> {
+    let table = match toml {
+        Some(ThresholdToml::Even(even)) => ThresholdTable { warp: Some(even), weft: Some(even), shear: Some(even) },
+        Some(ThresholdToml::Directions(table)) => table,
+        None => ThresholdTable { warp: None, weft: None, shear: None },
+    };
+    let given = |direction: &str, own: Option<f64>, inherited: Option<f64>| {
+        let value = own.or(inherited).ok_or_else(|| {
+            let message = format!("that of the {direction} is missing; give it, or a base such as \"cotton\"");
+            Found::malformed(Place::Key(key.into()), message)
+        })?;
+        if THRESHOLD_RANGE.contains(&value) {
+            return Ok(value);
+        }
+        let [least, most] = [THRESHOLD_RANGE.start(), THRESHOLD_RANGE.end()];
+        let message = format!("that of the {direction} is {value} and must be from {least} to {most}: 0.1 % to 15 %");
+        Err(Found::malformed(Place::Key(key.into()), message))
+    };
+    Ok(Threshold {
+        warp: given("warp", table.warp, base.map(|b| b.warp))?,
+        weft: given("weft", table.weft, base.map(|b| b.weft))?,
+        shear: given("shear", table.shear, base.map(|b| b.shear))?,
     })
 }

@@ -99,7 +99,23 @@ pub(crate) struct FabricTable {
     pub damping: Option<f64>,
     pub thickness: Option<f64>,
     pub friction: Option<f64>,
-    pub threshold: Option<f64>,
+    pub threshold: Option<ThresholdToml>,
+}
+
+/// One threshold for all directions, or those of some of them.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "threshold is a number, or a table of warp, weft and shear")]
+pub(crate) enum ThresholdToml {
+    Even(f64),
+    Directions(ThresholdTable),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ThresholdTable {
+    pub warp: Option<f64>,
+    pub weft: Option<f64>,
+    pub shear: Option<f64>,
 }
 
 #[derive(Deserialize)]

@@ -44,8 +44,8 @@ pub struct StepParams {
     pub drag: f32,
     /// Lift coefficient [1].
     pub lift: f32,
-    /// Elongation that counts as over-long [1].
-    pub threshold: f32,
+    /// Part of the threshold that the limits hold [1].
+    pub aim: f32,
     /// Number of structural and shear springs, whose limits are the first.
     pub limit_count: u32,
 }

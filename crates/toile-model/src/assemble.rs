@@ -6,8 +6,15 @@ use crate::soften::soften;
 use crate::{Csr, Limit, Link, Model, Spring, SpringKind};
 use toile_scene::Rule;
 
-/// Part of the threshold that hierarchical limits hold [1]. Sweeps end before they converge; what is left goes on top.
-const AIM: f32 = 0.6;
+/// Part of the threshold that the limits of a rule hold [1]. Sweeps of hierarchical ones end before they converge; what is left goes on top.
+pub(crate) const fn aim(rule: Rule) -> f32 {
+    if matches!(rule, Rule::Hierarchical) { 0.6 } else { 1.0 }
+}
+
+/// A length [m] after an elongation [1].
+pub(crate) fn stretched(length: f32, elongation: f32) -> f32 {
+    (1.0 + elongation) * length
+}
 
 impl Model {
     /// Fills what follows from springs, seam pairs and quads.
@@ -44,16 +51,12 @@ impl Model {
 
     /// Limits of the springs that have one, in their order.
     pub(crate) fn spring_limits(&self) -> impl Iterator<Item = Limit> {
-        let stretch = self.stretch();
-        let limit =
-            move |s: &Spring| Limit { ends: s.ends, rest_length: s.rest_length, max_length: stretch * s.rest_length };
-        self.limited().map(limit)
-    }
-
-    /// Maximum length of a limit as part of its rest length [1].
-    pub(crate) fn stretch(&self) -> f32 {
-        let aim = if self.rule == Rule::Hierarchical { AIM } else { 1.0 };
-        1.0 + aim * self.threshold
+        let aim = aim(self.rule);
+        self.limited().map(move |s| Limit {
+            ends: s.ends,
+            rest_length: s.rest_length,
+            max_length: stretched(s.rest_length, aim * s.threshold),
+        })
     }
 
     /// For each particle its neighbour in the next row: particles are numbered row by row.

@@ -5,6 +5,7 @@ use crate::fan::opposite_neighbours;
 use crate::geometry::corners;
 use crate::{Csr, NO_CORNER, PanelMesh};
 use glam::DVec2;
+use toile_scene::Threshold;
 
 /// A diagonal goes straight on where its direction changes by no more than the angle with this cosine [1].
 const STRAIGHT: f64 = 0.866;
@@ -23,6 +24,8 @@ pub(crate) struct Cloth<'a> {
     pub(crate) member_of: &'a [u32],
     /// Number of particles of the sewn cloth.
     pub(crate) particle_count: usize,
+    /// Elongation that the fabric allows, by direction.
+    pub(crate) threshold: Threshold,
 }
 
 /// All lines of one kind.
@@ -40,8 +43,16 @@ struct Edge {
     flat_ends: [u32; 2],
     /// `None` where two panels share it.
     panel: Option<u32>,
-    /// Flat length [m].
-    length: f64,
+    span: Span,
+}
+
+/// The flat cloth between two particles of a line.
+#[derive(Clone, Copy)]
+pub(crate) struct Span {
+    /// Its length [m].
+    pub(crate) length: f64,
+    /// Elongation that it allows [1].
+    pub(crate) threshold: f64,
 }
 
 /// A part of a line, on which no particle comes twice.
@@ -59,9 +70,10 @@ impl<'a> Cloth<'a> {
         flat: &'a [DVec2],
         member_of: &'a [u32],
         particle_count: usize,
+        threshold: Threshold,
     ) -> Self {
         let panels = panels.iter().zip(0..).flat_map(|(mesh, panel)| mesh.quads.clone().map(move |_| panel)).collect();
-        Self { elements, panels, flat, member_of, particle_count }
+        Self { elements, panels, flat, member_of, particle_count, threshold }
     }
 
     /// Open sides of the elements of each panel, as flat particles.
@@ -96,7 +108,7 @@ impl<'a> Cloth<'a> {
         Lines { next, edges }
     }
 
-    /// The side that elements share; of two lengths the shorter one rules, as for springs.
+    /// The side that elements share; of two lengths and thresholds the smaller one rules, as for springs.
     fn edge(&self, group: &[Side]) -> Edge {
         let flat_ends = |side: &Side| {
             let element = &self.elements[side.element as usize];
@@ -105,18 +117,24 @@ impl<'a> Cloth<'a> {
             let [a, b] = [loop_[corner], loop_[(corner + 1) % loop_.len()]];
             if self.member_of[a as usize] == side.ends[0] { [a, b] } else { [b, a] }
         };
-        let length = |side: &Side| {
-            let [a, b] = flat_ends(side).map(|i| self.flat[i as usize]);
-            a.distance(b)
-        };
         let panel = |side: &Side| self.panels[side.element as usize];
         let first = panel(&group[0]);
         Edge {
             ends: group[0].ends,
             flat_ends: flat_ends(&group[0]),
             panel: group.iter().all(|side| panel(side) == first).then_some(first),
-            length: group.iter().map(length).fold(f64::INFINITY, f64::min),
+            span: group
+                .iter()
+                .map(|side| self.straight(flat_ends(side)))
+                .reduce(|a, b| Span { length: a.length.min(b.length), threshold: a.threshold.min(b.threshold) })
+                .expect("a side has an element"),
         }
+    }
+
+    /// Between two particles of a panel.
+    fn straight(&self, flat_ends: [u32; 2]) -> Span {
+        let [a, b] = flat_ends.map(|i| self.flat[i as usize]);
+        Span { length: a.distance(b), threshold: self.threshold.along(b - a) }
     }
 
     /// The lines along the diagonals of the quads; they end at seams.
@@ -129,8 +147,7 @@ impl<'a> Cloth<'a> {
             }
             for flat_ends in [[a, c], [b, d]] {
                 let ends = flat_ends.map(|i| self.member_of[i as usize]);
-                let [p, q] = flat_ends.map(|i| self.flat[i as usize]);
-                edges.push(Edge { ends, flat_ends, panel: Some(*panel), length: p.distance(q) });
+                edges.push(Edge { ends, flat_ends, panel: Some(*panel), span: self.straight(flat_ends) });
             }
         }
         let mut leaving = vec![Vec::new(); self.flat.len()];
@@ -196,17 +213,21 @@ impl Lines {
 }
 
 impl Cloth<'_> {
-    /// Distances [m] inside the flat panels between particles of a line that are so many edges apart, never less than the shortest.
-    pub(crate) fn lengths(&self, line: &Line, cells: usize, rims: &Csr<[u32; 2]>) -> Vec<f64> {
-        line.steps.windows(cells).map(|steps| self.length(steps, rims)).collect()
+    /// What lies inside the flat panels between particles of a line that are so many edges apart: the straight line where it stays inside,
+    /// else the way along the line.
+    pub(crate) fn spans(&self, line: &Line, cells: usize, rims: &Csr<[u32; 2]>) -> Vec<Span> {
+        line.steps.windows(cells).map(|steps| self.span(steps, rims)).collect()
     }
 
-    fn length(&self, steps: &[Edge], rims: &Csr<[u32; 2]>) -> f64 {
-        let way: f64 = steps.iter().map(|edge| edge.length).sum();
+    fn span(&self, steps: &[Edge], rims: &Csr<[u32; 2]>) -> Span {
+        let length: f64 = steps.iter().map(|edge| edge.span.length).sum();
+        let longer: f64 = steps.iter().map(|edge| edge.span.length * edge.span.threshold).sum();
+        let way = Span { length, threshold: longer / length };
         let panel = steps[0].panel.filter(|panel| steps.iter().all(|edge| edge.panel == Some(*panel)));
         let Some(panel) = panel else { return way };
-        let [a, b] = [steps[0].flat_ends[0], steps[steps.len() - 1].flat_ends[1]].map(|i| self.flat[i as usize]);
-        if self.is_inside(panel, [a, b], way, rims) { a.distance(b) } else { way }
+        let flat_ends = [steps[0].flat_ends[0], steps[steps.len() - 1].flat_ends[1]];
+        let is_inside = self.is_inside(panel, flat_ends.map(|i| self.flat[i as usize]), length, rims);
+        if is_inside { self.straight(flat_ends) } else { way }
     }
 
     /// Whether the straight line between two points of a panel stays inside, when a way of so many metres does.

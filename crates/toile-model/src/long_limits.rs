@@ -1,8 +1,9 @@
 //! Limits that span many cells: what one of them holds, a sweep over single springs would take a sweep per cell to hold.
 
+use crate::assemble::{aim, stretched};
 use crate::colouring::{Pair, sort_by_colour};
 use crate::lines::{Cloth, Line};
-use crate::{Attachment, Csr, Limit, Model, Strand};
+use crate::{Attachment, Csr, Model, Strand};
 use glam::DVec2;
 
 /// Particles of a strand at most: what a workgroup holds in its memory.
@@ -26,7 +27,7 @@ impl Model {
         let lines: Vec<&Line> =
             sides.iter().chain(&diagonals).filter(|line| line.particles.len() >= STRAND_PARTICLES_MIN).collect();
         let colours = line_colours(&lines, cloth.particle_count);
-        let stretch = self.stretch();
+        let aim = aim(self.rule);
         let mut strand_ends: Vec<[u32; 2]> = Vec::new();
         for colour in 0..colours.iter().max().map_or(0, |last| last + 1) {
             let first = self.strands.len() as u32;
@@ -40,8 +41,9 @@ impl Model {
                 };
                 let mut cells = 1;
                 while cells <= cells_max.min(line.particles.len() - 1) {
-                    let lengths = cloth.lengths(line, cells, &rims);
-                    self.strand_lengths.extend(lengths.iter().map(|length| stretch * *length as f32));
+                    let spans = cloth.spans(line, cells, &rims);
+                    self.strand_lengths
+                        .extend(spans.iter().map(|span| stretched(span.length as f32, aim * span.threshold as f32)));
                     strand.level_count += 1;
                     cells *= 2;
                 }
@@ -57,17 +59,18 @@ impl Model {
         self.loose_limit_colours = sort_by_colour(&mut self.loose_limits, &pairs, cloth.particle_count);
     }
 
-    /// Every limit along every strand, strand by strand, from single cells to the longest.
-    pub fn strand_limits(&self) -> impl Iterator<Item = Limit> {
-        let stretch = self.stretch();
+    /// Every limit along every strand, strand by strand, from single cells to the longest: its two particles and its maximum length [m].
+    pub fn strand_limits(&self) -> impl Iterator<Item = ([u32; 2], f32)> {
         self.strands.iter().flat_map(move |strand| {
             let particles = &self.strand_particles[strand.particles.start as usize..strand.particles.end as usize];
             (0..strand.level_count).flat_map(move |level| {
                 let reach = 1 << level;
-                particles.iter().zip(&particles[reach..]).zip(strand.lengths_from(level)..).map(move |((a, b), k)| {
-                    let max_length = self.strand_lengths[k as usize];
-                    Limit { ends: [*a.min(b), *a.max(b)], rest_length: max_length / stretch, max_length }
-                })
+                let lengths = &self.strand_lengths[strand.lengths_from(level) as usize..];
+                particles
+                    .iter()
+                    .zip(&particles[reach..])
+                    .zip(lengths)
+                    .map(|((a, b), &max_length)| ([*a.min(b), *a.max(b)], max_length))
             })
         })
     }
@@ -94,24 +97,25 @@ fn line_colours(lines: &[&Line], particle_count: usize) -> Vec<u32> {
     lines.iter().map(colour).collect()
 }
 
-/// For each particle of a convex panel the pins that hold it: of each group of neighbouring pins the nearest one, and of the groups
-/// the nearest ones. Kim, Chentanez and Müller, Long Range Attachments, 2012.
-pub(crate) fn attachments(
-    flat: &[DVec2],
-    inverse_masses: &[f32],
-    groups: &[Vec<u32>],
-    stretch: f32,
-) -> Csr<Attachment> {
-    let rows = flat.iter().zip(inverse_masses).map(|(here, inverse_mass)| {
-        let nearest = |group: &Vec<u32>| {
-            let distances = group.iter().map(|&pin| (flat[pin as usize].distance(*here), pin));
-            distances.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
-        };
-        let mut pins: Vec<(f64, u32)> = groups.iter().filter_map(nearest).collect();
-        pins.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let count = if *inverse_mass > 0.0 { pins.len().min(ATTACHMENT_COUNT) } else { 0 };
-        pins.truncate(count);
-        pins.into_iter().map(|(distance, pin)| Attachment { pin, max_length: stretch * distance as f32 })
-    });
-    Csr::from_rows(rows)
+impl Model {
+    /// For each particle of a convex panel the pins that hold it: of each group of neighbouring pins the nearest one, and of the groups
+    /// the nearest ones. Kim, Chentanez and Müller, Long Range Attachments, 2012.
+    pub(crate) fn attachments(&self, flat: &[DVec2], groups: &[Vec<u32>]) -> Csr<Attachment> {
+        let aim = aim(self.rule);
+        let rows = flat.iter().zip(&self.inverse_masses).map(|(here, inverse_mass)| {
+            let nearest = |group: &Vec<u32>| {
+                let distances = group.iter().map(|&pin| (flat[pin as usize].distance(*here), pin));
+                distances.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
+            };
+            let mut pins: Vec<(f64, u32)> = groups.iter().filter_map(nearest).collect();
+            pins.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            let count = if *inverse_mass > 0.0 { pins.len().min(ATTACHMENT_COUNT) } else { 0 };
+            pins.truncate(count);
+            pins.into_iter().map(move |(distance, pin)| {
+                let threshold = self.threshold.along(*here - flat[pin as usize]) as f32;
+                Attachment { pin, max_length: stretched(distance as f32, aim * threshold) }
+            })
+        });
+        Csr::from_rows(rows)
+    }
 }

@@ -3,7 +3,7 @@
 use crate::Csr;
 use glam::{Vec2, Vec3};
 use std::ops::Range;
-use toile_scene::Rule;
+use toile_scene::{Rule, Threshold};
 
 /// Fourth corner of a quad that is a triangle.
 pub const NO_CORNER: u32 = u32::MAX;
@@ -60,8 +60,8 @@ pub struct Model {
     pub bending: f64,
     /// Smallest part of the bending rigidity that the step carries anywhere [1]; 1 is all of it.
     pub bending_carried: f64,
-    /// Elongation that the limits allow [1].
-    pub threshold: f32,
+    /// Elongation that the fabric allows, by direction.
+    pub threshold: Threshold,
     /// The rule that the limits are made for.
     pub rule: Rule,
     /// Longest step [s] that the links are made soft enough for; `None` when they keep the stiffness of the springs.
@@ -94,6 +94,8 @@ pub struct Spring {
     pub rest_length: f32,
     /// Stiffness [N/m].
     pub stiffness: f32,
+    /// Elongation that the fabric allows along it [1]; 0 of a seam spring, which has no limit.
+    pub threshold: f32,
     /// What it resists.
     pub kind: SpringKind,
 }
@@ -117,7 +119,7 @@ pub struct Limit {
     pub ends: [u32; 2],
     /// Rest length of the spring [m].
     pub rest_length: f32,
-    /// Maximum length [m]: (1 + threshold)·rest length; under [`Rule::Hierarchical`] a little less, so that what the sweeps leave
+    /// Maximum length [m]: (1 + threshold)·rest length, by the threshold along it; under [`Rule::Hierarchical`] a little less, so that what the sweeps leave
     /// of the excess stays under the threshold.
     pub max_length: f32,
 }

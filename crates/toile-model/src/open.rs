@@ -3,7 +3,6 @@
 use crate::flat_mesh::FlatMesh;
 use crate::geometry::{angle_range, corners, element_area, signed_area};
 use crate::lines::Cloth;
-use crate::long_limits::attachments;
 use crate::outline::outlines;
 use crate::seams::seam_pairs;
 use crate::soften::step_wanted;
@@ -50,7 +49,7 @@ impl Model {
         }];
         model.add_flat_strands(&flat);
         if model.rule == Rule::Hierarchical {
-            model.attachments = attachments(&flat, &model.inverse_masses, &pin_groups(sheet), model.stretch());
+            model.attachments = model.attachments(&flat, &pin_groups(sheet));
         }
         let mut model = model.complete();
         model.add_bending();
@@ -102,6 +101,7 @@ impl Model {
             ends: p.ends,
             rest_length: 0.0,
             stiffness,
+            threshold: 0.0,
             kind: SpringKind::Seam,
         });
         model.springs.extend(seam_springs);
@@ -123,7 +123,8 @@ impl Model {
         let stiffness = [fabric.structural_stiffness, fabric.shear_stiffness, fabric.bend_stiffness].map(|k| k as f32);
         let spring = |r: Role| Spring {
             ends: r.ends,
-            rest_length: r.rest_length as f32,
+            rest_length: r.flat.length() as f32,
+            threshold: fabric.threshold.along(r.flat) as f32,
             stiffness: stiffness[r.kind as usize],
             kind: r.kind,
         };
@@ -136,7 +137,7 @@ impl Model {
             quads,
             stiffness,
             bending: fabric.bending_rigidity / fabric.areal_density,
-            threshold: fabric.threshold as f32,
+            threshold: fabric.threshold,
             rule: settings.velocity_modification.rule,
             step_wanted: step_wanted(settings),
             ..Self::default()
@@ -148,7 +149,7 @@ impl Model {
         if self.rule == Rule::Hierarchical {
             let member_of: Vec<u32> = (0..flat.len() as u32).collect();
             let quads = self.quads.clone();
-            self.add_strands(&Cloth::new(&quads, &self.panels, flat, &member_of, flat.len()));
+            self.add_strands(&Cloth::new(&quads, &self.panels, flat, &member_of, flat.len(), self.threshold));
         }
     }
 }

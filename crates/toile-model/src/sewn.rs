@@ -46,7 +46,7 @@ impl Model {
         (model.quads, model.panels) = self.sewn_quads(&member_of);
         if self.rule == Rule::Hierarchical {
             let flat: Vec<DVec2> = self.flat.iter().map(|p| p.as_dvec2()).collect();
-            model.add_strands(&Cloth::new(&self.quads, &self.panels, &flat, &member_of, count));
+            model.add_strands(&Cloth::new(&self.quads, &self.panels, &flat, &member_of, count, self.threshold));
         }
         let mut model = model.complete();
         model.add_bending();
@@ -157,11 +157,13 @@ impl Model {
             .collect()
     }
 
+    /// A spring across a seam, where the grain turns: the smallest threshold holds.
     fn spring(&self, a: u32, b: u32, kind: SpringKind, rest_length: f64) -> Spring {
         Spring {
             ends: [a.min(b), a.max(b)],
             rest_length: rest_length as f32,
             stiffness: self.stiffness[kind as usize],
+            threshold: self.threshold.least() as f32,
             kind,
         }
     }
@@ -229,12 +231,13 @@ struct Unfolded {
 }
 
 /// One spring for several between the same two particles, sorted by kind: the strongest role, and of those that have it the
-/// stiffness of all and the rest length of the shortest.
+/// stiffness of all, and the rest length of the shortest and the threshold of the tightest.
 fn one_spring(group: &[Spring]) -> Spring {
     let same = group.iter().filter(|s| s.kind == group[0].kind);
     Spring {
         stiffness: same.clone().map(|s| s.stiffness).sum(),
-        rest_length: same.map(|s| s.rest_length).fold(f32::INFINITY, f32::min),
+        rest_length: same.clone().map(|s| s.rest_length).fold(f32::INFINITY, f32::min),
+        threshold: same.map(|s| s.threshold).fold(f32::INFINITY, f32::min),
         ..group[0]
     }
 }

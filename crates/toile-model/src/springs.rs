@@ -12,13 +12,13 @@ pub(crate) struct Role {
     /// The two particles, the lower index first.
     pub(crate) ends: [u32; 2],
     pub(crate) kind: SpringKind,
-    /// Rest length [m].
-    pub(crate) rest_length: f64,
+    /// Vector between them in the flat panel [m]: its length is the rest length.
+    pub(crate) flat: DVec2,
 }
 
 impl Role {
-    pub(crate) fn new(a: u32, b: u32, kind: SpringKind, rest_length: f64) -> Self {
-        Self { ends: [a.min(b), a.max(b)], kind, rest_length }
+    pub(crate) fn new(a: u32, b: u32, kind: SpringKind, flat: DVec2) -> Self {
+        Self { ends: [a.min(b), a.max(b)], kind, flat }
     }
 }
 
@@ -27,7 +27,7 @@ impl Role {
 /// Sides of elements are structural. Diagonals of quads are shear, and so are the opposite corners of two triangles that share a
 /// side. Bend springs span two sides that go straight on across a particle. Rest lengths are distances in the flat panel.
 pub(crate) fn panel_springs(elements: &[[u32; 4]], flat: &[DVec2]) -> Vec<Role> {
-    let role = |a: u32, b: u32, kind| Role::new(a, b, kind, flat[a as usize].distance(flat[b as usize]));
+    let role = |a: u32, b: u32, kind| Role::new(a, b, kind, flat[b as usize] - flat[a as usize]);
     let sides = sides(elements, |i| i);
     let mut roles = Vec::with_capacity(6 * flat.len());
     for group in sides.chunk_by(|a, b| a.ends == b.ends) {

@@ -15,7 +15,7 @@ pub struct Status {
     pub kinetic_energy: f32,
     /// Largest elongation of a structural or shear spring [1]; 0 when none is longer than its rest length.
     pub elongation_max: f32,
-    /// Number of structural and shear springs whose elongation is above the threshold.
+    /// Number of structural and shear springs whose elongation is above the threshold along them.
     pub over_long_count: u32,
     /// The spring with the largest elongation, as an index into [`Model::limits`](crate::Model::limits).
     pub longest_limit: Option<u32>,

@@ -1,6 +1,7 @@
 //! The numbers of one step, and the largest step that is stable.
 
 use crate::Model;
+use crate::assemble::aim;
 use glam::Vec3;
 use toile_scene::{Friction, Rule, Settings, Wind};
 
@@ -43,8 +44,8 @@ pub struct StepSettings {
     pub rule: Rule,
     /// Sweeps over all limits per step.
     pub sweeps: u32,
-    /// Elongation that the limits allow [1].
-    pub threshold: f32,
+    /// Part of the threshold that the limits hold [1]; the rest is for what the sweeps leave.
+    pub aim: f32,
     /// Whether the whole way of a point is tested against the bodies, not its end alone.
     pub swept: bool,
 }
@@ -73,7 +74,7 @@ impl StepSettings {
             hold_speed: 0.5,
             rule: settings.velocity_modification.rule,
             sweeps: settings.velocity_modification.sweeps,
-            threshold: settings.fabric.threshold as f32,
+            aim: aim(model.rule),
             swept: settings.swept,
         }
     }

@@ -49,7 +49,7 @@ pub struct Colliders {
 ///     hold_speed: 0.5,
 ///     rule: Rule::Predictive,
 ///     sweeps: 1,
-///     threshold: 0.05,
+///     aim: 1.0,
 ///     swept: true,
 /// };
 /// let mut reference = Reference::new(&model, &settings, Colliders::default());
@@ -214,7 +214,7 @@ impl Reference {
     /// What the simulation reports of its state.
     pub fn status(&self) -> Status {
         let particles = frame::particle_status(&self.particles);
-        let limits = frame::limit_status(&self.particles.positions, &self.model.limits, self.settings.threshold);
+        let limits = frame::limit_status(&self.particles.positions, &self.model.limits, self.settings.aim);
         Status {
             step: self.step,
             non_finite_count: particles.non_finite_count,

@@ -3,7 +3,7 @@
 use crate::LabError;
 use glam::{DVec2, DVec3};
 use toile::files::{BodyOptions, parse_body};
-use toile::scene::{Fabric, Mesh, Pin, Rule, Settings, Sheet, Sphere, SphereMotion};
+use toile::scene::{Fabric, Mesh, Pin, Rule, Settings, Sheet, Sphere, SphereMotion, Threshold};
 
 const BODY: &[u8] = include_bytes!("../../../fixtures/bodies/walking_woman.glb");
 
@@ -31,7 +31,7 @@ pub fn fabric() -> Fabric {
         damping: 0.1,
         thickness: 0.005,
         friction: 0.3,
-        threshold: 0.05,
+        threshold: Threshold::even(0.05),
     }
 }
 

@@ -1,5 +1,7 @@
 //! What the cloth is made of.
 
+use crate::Threshold;
+
 /// What the cloth is made of.
 ///
 /// The stiffnesses are those of the springs (D eq. 2). On a square grid the stiffness of a structural spring [N/m] is the
@@ -27,8 +29,8 @@ pub struct Fabric {
     pub thickness: f64,
     /// Coefficient of Coulomb friction against a body [1].
     pub friction: f64,
-    /// Largest elongation that the velocity modification allows [1], for example 0.05. D §4.3: 1 % to 15 %.
-    pub threshold: f64,
+    /// Largest elongation that the velocity modification allows, by direction.
+    pub threshold: Threshold,
 }
 
 impl Fabric {
@@ -54,7 +56,7 @@ impl Fabric {
             damping: rest[0],
             thickness: rest[1],
             friction: rest[2],
-            threshold: rest[3],
+            threshold: Threshold::even(rest[3]),
         };
         Some(match name {
             "silk" => preset(0.12, [20.0, 6.0, 0.5], 8e-6, [1.0, 0.0015, 0.3, 0.05]),

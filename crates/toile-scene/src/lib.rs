@@ -15,6 +15,7 @@ mod rigid;
 mod settings;
 mod sheet;
 mod skin;
+mod threshold;
 
 pub use body::{Body, Sphere, SphereMotion};
 pub use clip::{Channel, Clip, Interpolation, Keys};
@@ -27,6 +28,7 @@ pub use rigid::{RigidKey, RigidMotion};
 pub use settings::{AIR_DENSITY, Friction, Rule, Settings, VelocityModification, Wind};
 pub use sheet::{Pin, Sheet};
 pub use skin::{Displacement, Influence, Morphs, Pose, Skin, normal_before, turned_normal};
+pub use threshold::Threshold;
 
 /// Everything a run needs: the cloth, what it collides with, and how it is simulated.
 #[derive(Clone, Debug)]

@@ -144,13 +144,11 @@ impl Simulation {
     /// # Errors
     /// [`Error::Diverged`] when a particle is not finite.
     pub fn strain(&mut self) -> Result<Option<Strain>, Error> {
-        let threshold = self.settings().threshold;
         Ok(self.status()?.map(|status| Strain {
             step: status.step,
             elongation_max: status.elongation_max,
             longest_limit: status.longest_limit,
             over_long_count: status.over_long_count,
-            threshold,
         }))
     }
 

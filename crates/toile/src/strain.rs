@@ -9,8 +9,6 @@ pub struct Strain {
     pub elongation_max: f32,
     /// The spring that has it, as an index into [`Model::limits`](toile_model::Model::limits), which names its particles.
     pub longest_limit: Option<u32>,
-    /// Number of springs whose elongation is above the threshold.
+    /// Number of springs whose elongation is above the threshold along them.
     pub over_long_count: u32,
-    /// Elongation that the fabric allows [1].
-    pub threshold: f32,
 }

@@ -18,7 +18,8 @@ pub struct WalkMetrics {
     particle_count: u32,
     steps_per_frame: u32,
     frame_rate: f64,
-    threshold: f64,
+    /// Elongation that the fabric allows along warp, weft and bias [1].
+    threshold: [f64; 3],
     frame_count: usize,
     elongation_max: f64,
     elongation_p99_worst: f64,
@@ -49,7 +50,7 @@ pub struct FrameRow {
     pub longest_spring: Option<[u32; 2]>,
     /// The region of the body that is nearest to it.
     pub longest_region: Option<String>,
-    /// Number of springs whose elongation is above the threshold.
+    /// Number of springs whose elongation is above the threshold along them.
     pub over_long_count: u32,
     /// 99th percentile of it, of the garment where it is largest [1].
     pub elongation_p99: f64,
@@ -160,6 +161,7 @@ impl WalkMetrics {
         for (region, count) in frames.iter().flat_map(|row| &row.false_contacts_by_region) {
             *regions.entry(region.clone()).or_default() += count;
         }
+        let threshold = settings.fabric.threshold;
         let fractions: f64 = frames.iter().map(|row| row.false_contact_fraction).sum();
         Self {
             adapter: adapter.to_owned(),
@@ -167,7 +169,7 @@ impl WalkMetrics {
             particle_count: walkers.iter().map(|walker| walker.model.particle_count()).sum(),
             steps_per_frame: walkers.first().map_or(0, |walker| walker.settings.steps_per_frame),
             frame_rate: settings.frame_rate,
-            threshold: settings.fabric.threshold,
+            threshold: [threshold.warp, threshold.weft, threshold.shear],
             frame_count: frames.len(),
             elongation_max: most(|row| row.elongation_max),
             elongation_p99_worst: most(|row| row.elongation_p99),

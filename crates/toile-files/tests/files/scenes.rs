@@ -5,7 +5,7 @@ use glam::DVec3;
 use std::fs;
 use std::path::Path;
 use toile_files::{SceneFile, read_fabric, read_scene};
-use toile_scene::{Body, Cloth, Fabric, Friction, Rule, Sheet, SphereMotion, Wind};
+use toile_scene::{Body, Cloth, Fabric, Friction, Rule, Sheet, SphereMotion, Threshold, Wind};
 
 fn overrides(pairs: &[(&str, &str)]) -> Vec<(String, String)> {
     pairs.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect()
@@ -29,7 +29,7 @@ fn the_fixtures_are_the_scenes_of_the_measurements() {
     assert_eq!((sheet.columns, sheet.rows, sheet.pins.len()), (64, 64, 2));
     assert_eq!((sheet.pins[1].column, sheet.pins[1].row), (63, 0));
     assert_eq!((file.frames, file.scene.settings.frame_rate), (120, 60.0));
-    assert_eq!(file.scene.settings.fabric.threshold, 0.05);
+    assert_eq!(file.scene.settings.fabric.threshold, Threshold::even(0.05));
     assert!(file.scene.bodies.is_empty());
 
     for (name, moves) in [("ball", false), ("moving-ball", true)] {
@@ -59,8 +59,18 @@ fn overrides_set_any_key() {
     let settings = &file.scene.settings;
     assert_eq!((sheet(&file).columns, sheet(&file).rows), (128, 32));
     assert_eq!(settings.velocity_modification.rule, Rule::Directional);
-    assert_eq!((settings.fabric.threshold, settings.fabric.structural_stiffness), (0.01, 20.0));
+    assert_eq!((settings.fabric.threshold, settings.fabric.structural_stiffness), (Threshold::even(0.01), 20.0));
     assert_eq!(settings.friction, Friction::Papers { velocity_kept: 0.8, force_removed: 0.3 });
+}
+
+#[test]
+fn a_threshold_is_one_number_or_one_for_each_direction() {
+    let threshold = |text| hang(&[("fabric.threshold", text)]).scene.settings.fabric.threshold;
+    assert_eq!(threshold("0.15"), Threshold::even(0.15));
+    let woven = "{ warp = 0.001, weft = 0.02, shear = 0.1 }";
+    assert_eq!(threshold(woven), Threshold { warp: 0.001, weft: 0.02, shear: 0.1 });
+    let fabric = hang(&[("fabric", "{ base = \"cotton\", threshold = { shear = 0.12 } }")]).scene.settings.fabric;
+    assert_eq!(fabric.threshold, Threshold { shear: 0.12, ..Threshold::even(0.05) });
 }
 
 #[test]
@@ -94,6 +104,11 @@ fn wrong_overrides_name_the_key_and_what_there_is() {
         ("fabric", "tweed"),
         ("fabric.areal_density", "-1"),
         ("fabric.damping", "nan"),
+        ("fabric.threshold", "0.2"),
+        ("fabric.threshold", "high"),
+        ("fabric.threshold", "{ warp = 0.01, weft = 0, shear = 0.1 }"),
+        ("fabric.threshold", "{ warp = 0.01, bias = 0.1 }"),
+        ("fabric.threshold", "{ warp = 0.01 }"),
         ("sheet.3.rows", "2"),
         ("sheet.0.down", "[1, 0, 0]"),
         ("sheet.0.pins", "[[64, 0]]"),
@@ -129,6 +144,11 @@ fn wrong_overrides_name_the_key_and_what_there_is() {
     hang.toml, key "fabric": there is no fabric "tweed"; there is: silk, jersey, cotton, wool, denim
     hang.toml, key "fabric.areal_density": it is -1 and must be above 0
     hang.toml, key "fabric.damping": it is NaN and must be 0 or more
+    hang.toml, key "fabric.threshold": that of the warp is 0.2 and must be from 0.001 to 0.15: 0.1 % to 15 %
+    hang.toml, key "fabric": threshold is a number, or a table of warp, weft and shear
+    hang.toml, key "fabric.threshold": that of the weft is 0 and must be from 0.001 to 0.15: 0.1 % to 15 %
+    hang.toml, key "fabric": threshold is a number, or a table of warp, weft and shear
+    hang.toml, key "fabric.threshold": that of the weft is missing; give it, or a base such as "cotton"
     hang.toml, key "sheet.3.rows": "3" is not the number of an entry: there are 1
     hang.toml, key "sheet.0.down": it must be perpendicular to right
     hang.toml, key "sheet.0.pins.0": [64, 0] is outside of the sheet of 64 × 64

@@ -4,14 +4,28 @@ use crate::support::{check_colours, garment, polygon, rectangle, settings};
 use glam::{DVec2, DVec3, dvec2};
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
-use toile_model::{Model, STRAND_PARTICLES_MAX, Strand};
-use toile_scene::{Garment, Pin, Rule, Settings, Sheet, VelocityModification};
+use toile_model::{Limit, Model, STRAND_PARTICLES_MAX, Strand};
+use toile_scene::{Garment, Pin, Rule, Settings, Sheet, Threshold, VelocityModification};
+
+/// Part of the threshold that the limits hold.
+const AIM: f32 = 0.6;
+/// Threshold of the fabric of [`settings`].
+const THRESHOLD: f32 = 0.05;
+
+/// Flat length [m] of a limit of so many metres.
+fn rest_length(max_length: f32) -> f64 {
+    f64::from(max_length / (1.0 + AIM * THRESHOLD))
+}
 
 fn hierarchical(spacing: f64) -> Settings {
     Settings { velocity_modification: VelocityModification::new(Rule::Hierarchical), ..settings(spacing) }
 }
 
 fn sheet(columns: u32, rows: u32, pins: Vec<Pin>) -> Model {
+    sheet_of(columns, rows, pins, &hierarchical(0.01))
+}
+
+fn sheet_of(columns: u32, rows: u32, pins: Vec<Pin>, settings: &Settings) -> Model {
     let sheet = Sheet {
         name: "sheet".into(),
         size: DVec2::new(f64::from(columns - 1), f64::from(rows - 1)) * 0.01,
@@ -22,7 +36,7 @@ fn sheet(columns: u32, rows: u32, pins: Vec<Pin>) -> Model {
         down: DVec3::NEG_Y,
         pins,
     };
-    Model::from_sheet(&sheet, &hierarchical(0.01))
+    Model::from_sheet(&sheet, settings)
 }
 
 /// No two strands of a colour share a particle, no strand has one twice, and strands and loose limits hold every spring once.
@@ -60,11 +74,12 @@ fn on_a_grid_every_line_of_2_4_and_8_cells_has_its_length() {
     check_strands(&model);
     let cells: Vec<i64> = model
         .strand_limits()
-        .map(|limit| {
-            let [a, b] = limit.ends.map(|i| [i64::from(i % 12), i64::from(i / 12)]);
+        .map(|(ends, max_length)| {
+            let [a, b] = ends.map(|i| [i64::from(i % 12), i64::from(i / 12)]);
             let [x, y] = [b[0] - a[0], b[1] - a[1]];
-            let distance = model.positions[limit.ends[0] as usize].distance(model.positions[limit.ends[1] as usize]);
-            assert!((limit.rest_length - distance).abs() < 1e-6, "{limit:?}: {distance} m");
+            let distance = model.positions[ends[0] as usize].distance(model.positions[ends[1] as usize]);
+            let length = rest_length(max_length);
+            assert!((length - f64::from(distance)).abs() < 1e-6, "{ends:?}: {length} m, {distance} m");
             assert!(x == 0 || y == 0 || x.abs() == y, "{x} columns and {y} rows");
             x.abs().max(y)
         })
@@ -100,6 +115,53 @@ fn tube() -> Garment {
     garment(vec![rectangle("front", [0.3, 0.3], 0.2), back], &[([0, 1], [1, 1]), ([0, 3], [1, 3])])
 }
 
+/// Settings of a woven fabric.
+fn woven() -> Settings {
+    let mut settings = hierarchical(0.01);
+    settings.fabric.threshold = Threshold { warp: 0.01, weft: 0.02, shear: 0.1 };
+    settings
+}
+
+#[test]
+fn each_direction_has_its_own_threshold() {
+    let model = sheet_of(12, 10, vec![Pin { column: 0, row: 0 }], &woven());
+    let check = |ends: [u32; 2], max_length: f32| {
+        let [a, b] = ends.map(|i| model.flat[i as usize]);
+        let way = (b - a).abs();
+        let threshold = match way.to_array() {
+            [x, _] if x < 1e-6 => 0.01,
+            [_, y] if y < 1e-6 => 0.02,
+            [x, y] if (x - y).abs() < 1e-6 => 0.1,
+            // Of attachments alone.
+            _ => return 0,
+        };
+        let stretch = max_length / way.length();
+        assert!((stretch - 1.0 - AIM * threshold).abs() < 1e-5, "{way}: {stretch}");
+        1
+    };
+    let strands: usize = model.strand_limits().map(|(ends, max_length)| check(ends, max_length)).sum();
+    assert_eq!(strands, model.strand_lengths.len());
+    assert_eq!(model.limits.iter().map(|l| check(l.ends, l.max_length)).sum::<usize>(), model.limits.len());
+    let attachments =
+        (1..model.particle_count()).flat_map(|i| model.attachments.row(i as usize).iter().map(move |a| (i, a)));
+    let checked: usize = attachments.map(|(i, a)| check([a.pin, i], a.max_length)).sum();
+    assert_eq!(checked, 9 + 11 + 9, "along the warp, the weft and the bias");
+}
+
+#[test]
+fn where_the_grain_turns_at_a_seam_the_tightest_threshold_holds() {
+    // Down the side of one panel and along the foot of the other.
+    let panels = vec![rectangle("one", [0.1, 0.1], 0.2), rectangle("other", [0.1, 0.1], -0.2)];
+    let open = Model::from_garment(&garment(panels, &[([0, 1], [1, 0])]), &woven()).unwrap();
+    let (model, merge) = open.sewn();
+    let is_in_seam = |i: &u32| merge.members.row(*i as usize).len() == 2;
+    let seam: Vec<&Limit> = model.limits.iter().filter(|l| l.ends.iter().all(is_in_seam)).collect();
+    assert_eq!(seam.len(), 10);
+    for limit in seam {
+        assert!((limit.max_length / limit.rest_length - 1.0 - AIM * 0.01).abs() < 1e-5, "{limit:?}");
+    }
+}
+
 #[test]
 fn they_reach_across_seams_and_let_a_tube_be_round() {
     let (model, merge) = Model::from_garment(&tube(), &hierarchical(0.02)).unwrap().sewn();
@@ -115,15 +177,16 @@ fn they_reach_across_seams_and_let_a_tube_be_round() {
     };
     let radius = 0.6 / (2.0 * PI);
     let mut across = 0;
-    for limit in model.strand_limits() {
-        let [a, b] = limit.ends.map(place);
+    for (ends, max_length) in model.strand_limits() {
+        let length = rest_length(max_length);
+        let [a, b] = ends.map(place);
         let turn = (a.x - b.x).rem_euclid(2.0 * PI);
         let turn = turn.min(2.0 * PI - turn);
         let chord = (2.0 * radius * (0.5 * turn).sin()).hypot(a.y - b.y);
         let geodesic = (radius * turn).hypot(a.y - b.y);
-        assert!(f64::from(limit.rest_length) > chord - 1e-6, "{limit:?} is shorter than {chord} m");
-        assert!(f64::from(limit.rest_length) < geodesic + 1e-6, "{limit:?} is longer than {geodesic} m");
-        let sides = limit.ends.map(|i| merge.members.row(i as usize)[0] < front);
+        assert!(length > chord - 1e-6, "{ends:?}: {length} m, shorter than {chord} m");
+        assert!(length < geodesic + 1e-6, "{ends:?}: {length} m, longer than {geodesic} m");
+        let sides = ends.map(|i| merge.members.row(i as usize)[0] < front);
         across += usize::from(sides[0] != sides[1]);
     }
     assert!(across > 100, "{across} limits lead from the front to the back");
@@ -141,16 +204,16 @@ fn around_a_notch_they_are_as_long_as_the_way_inside() {
     let model = Model::from_garment(&bitten, &hierarchical(0.02)).unwrap();
     check_strands(&model);
     let mut around = 0;
-    for limit in model.strand_limits() {
-        let [a, b] = limit.ends.map(|i| model.flat[i as usize].as_dvec2());
-        let (chord, length) = (a.distance(b), f64::from(limit.rest_length));
-        assert!(length > chord - 1e-6, "{limit:?} is shorter than the straight line, {chord} m");
+    for (ends, max_length) in model.strand_limits() {
+        let [a, b] = ends.map(|i| model.flat[i as usize].as_dvec2());
+        let (chord, length) = (a.distance(b), rest_length(max_length));
+        assert!(length > chord - 1e-6, "{ends:?}: {length} m, shorter than the straight line, {chord} m");
         let outside = (a.midpoint(b) - dvec2(0.3, 0.3)).length() < 0.195;
         if outside {
             around += 1;
             // The way along the arc: a chord of 0.2 m · 2·sin(angle/2).
             let along = 0.4 * (chord / 0.4).asin();
-            assert!(length > chord * 1.0001 && length < 1.05 * along, "{limit:?}: {along} m along the arc");
+            assert!(length > chord * 1.0001 && length < 1.05 * along, "{ends:?}: {length} m, {along} m along the arc");
         }
     }
     assert!(around > 5, "{around} limits lead around the notch");
@@ -173,7 +236,7 @@ fn every_particle_hangs_on_the_nearest_pin_of_each_group() {
         assert_eq!(pins, [nearer, 11]);
         for attachment in row {
             let stretch = attachment.max_length / distance(attachment.pin);
-            assert!((stretch - 1.0 - 0.6 * model.threshold).abs() < 1e-5, "{stretch}");
+            assert!((stretch - 1.0 - AIM * THRESHOLD).abs() < 1e-5, "{stretch}");
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Free fall and momentum: what a rule does to a cloth that nothing holds.
 
-use crate::support::{Grid, Parts, Random, centre, momentum, momentum_scale, settings};
+use crate::support::{Grid, Parts, Random, THRESHOLD, centre, momentum, momentum_scale, settings};
 use glam::{DVec3, Vec3};
 use toile_model::{Model, Spring, SpringKind, StepSettings};
 use toile_reference::{Colliders, Particles, Reference, step};
@@ -84,6 +84,7 @@ fn blob() -> (Model, Particles) {
                 ends: [a.min(b), a.max(b)],
                 rest_length: 0.1 + random.number(),
                 stiffness: 1.0,
+                threshold: THRESHOLD,
                 kind: SpringKind::Structural,
             });
         }

@@ -1,6 +1,6 @@
 //! Each rule on a single limit.
 
-use crate::support::{Parts, settings};
+use crate::support::{Parts, THRESHOLD, settings};
 use glam::{Vec3, vec3};
 use toile_model::{Limit, Spring, SpringKind, StepSettings};
 use toile_reference::{Contact, Particles, step};
@@ -9,7 +9,8 @@ const DT: f32 = 0.01;
 
 /// Two particles of 1 kg and 3 kg at a distance of 1.2 m, b above a, with a limit of 1.05 m.
 fn pair(pins: &[usize]) -> (Particles, [Limit; 1]) {
-    let spring = Spring { ends: [0, 1], rest_length: 1.0, stiffness: 1.0, kind: SpringKind::Structural };
+    let spring =
+        Spring { ends: [0, 1], rest_length: 1.0, stiffness: 1.0, threshold: THRESHOLD, kind: SpringKind::Structural };
     let model = Parts {
         positions: vec![Vec3::ZERO, vec3(0.0, 1.2, 0.0)],
         masses: vec![1.0, 3.0],

@@ -30,7 +30,7 @@ pub fn settings() -> StepSettings {
         hold_speed: 0.5,
         rule: Rule::None,
         sweeps: 1,
-        threshold: THRESHOLD,
+        aim: 1.0,
         swept: true,
     }
 }
@@ -164,7 +164,13 @@ impl Grid {
                         if stiffness > 0.0 && (0..i64::from(self.columns)).contains(&other) {
                             let ends = [index(column, row), index(other as u32, row + down)];
                             let cells = ((right * right) as f32 + (down * down) as f32).sqrt();
-                            parts.springs.push(Spring { ends, rest_length: self.spacing * cells, stiffness, kind });
+                            parts.springs.push(Spring {
+                                ends,
+                                rest_length: self.spacing * cells,
+                                stiffness,
+                                threshold: THRESHOLD,
+                                kind,
+                            });
                         }
                     }
                 }

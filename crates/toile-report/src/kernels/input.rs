@@ -112,15 +112,15 @@ impl Input {
         &self.strands[self.span.start as usize..self.span.end as usize]
     }
 
-    /// The limits of the strands of the span.
-    pub fn strand_limits(&self) -> Vec<Limit> {
+    /// The ends of the limits of the strands of the span.
+    pub fn strand_limits(&self) -> Vec<[u32; 2]> {
         let model = Model {
             strands: self.colour_strands().to_vec(),
             strand_particles: self.strand_particles.clone(),
             strand_lengths: self.strand_lengths.clone(),
             ..Model::default()
         };
-        model.strand_limits().collect()
+        model.strand_limits().map(|(ends, _)| ends).collect()
     }
 
     /// The seam pairs of the span.
@@ -174,7 +174,7 @@ impl Input {
             wind: wind.velocity.as_vec3(),
             drag: wind.drag as f32,
             lift: wind.lift as f32,
-            threshold: s.threshold,
+            aim: s.aim,
             limit_count: self.limits.len() as u32,
         }
     }

@@ -126,7 +126,7 @@ impl Seeds {
         input.copies.velocities.fill(Vec3::ZERO);
         place_at_the_edges(random, &mut input);
         if kernel == Kernel::LongestLimit {
-            let status = frame::limit_status(&input.particles.positions, &input.limits, input.settings.threshold);
+            let status = frame::limit_status(&input.particles.positions, &input.limits, input.settings.aim);
             input.status.elongation_max = status.elongation_max.to_bits();
         }
         carry_by_the_wind(&mut input);
@@ -163,7 +163,7 @@ fn step_settings(variant: Variant) -> StepSettings {
         push_speed: 1.5,
         pressing: 200.0,
         sweeps: 1,
-        threshold: 0.05,
+        aim: 0.6,
         contact_margin: 1e-3,
         friction: 0.8,
         hold_rate: 10.0,

@@ -6,7 +6,7 @@ use crate::{Lab, LabError, Random, Run};
 use glam::{DQuat, DVec2, DVec3};
 use toile::Colliders;
 use toile::model::{Model, StepSettings};
-use toile::scene::{Curve, Edge, Garment, Panel, Placement, Settings, Sheet};
+use toile::scene::{Curve, Edge, Garment, Panel, Placement, Settings, Sheet, Threshold};
 
 const N: u32 = 12;
 const FRAMES: u32 = 15;
@@ -88,7 +88,7 @@ pub(super) const NO_THRESHOLD: Case = Case {
     name: "threshold 0",
     must: "finite; elongation below 2 %",
     run: |lab| {
-        let outcome = sheet(lab, |_, settings| settings.fabric.threshold = 0.0, |_| ())?;
+        let outcome = sheet(lab, |_, settings| settings.fabric.threshold = Threshold::even(0.0), |_| ())?;
         Ok(outcome.held_if(|course| course.elongation_max < 0.02))
     },
 };

@@ -71,7 +71,7 @@ pub fn limited(lab: &Lab, limiting: Limiting, frames: u32) -> Result<Limited, La
 pub(super) fn blocks(lab: &mut Lab, progress: [f64; 2]) -> Result<Vec<Block>, LabError> {
     let sizes: &[u32] = lab.pick(&[13], &[17, 33, 65]);
     let frames = lab.pick(36, 60);
-    let threshold = hanging_sheet(2).1.fabric.threshold;
+    let threshold = hanging_sheet(2).1.fabric.threshold.least();
     let caption = format!(
         "Elongation beyond the threshold of {} % against cost: a sheet of 1 m × 1 m, 0.2 kg/m², springs of 20, 10 and 2 N/m, damping \
          0.1 /s, swings down from level on two held corners; n × n particles, {frames} frames of 1/60 s, each rule with several sweeps \

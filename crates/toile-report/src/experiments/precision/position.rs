@@ -7,7 +7,7 @@ use crate::page::{Axis, Block, Cell, Plot, Series, SeriesStyle, Table};
 use crate::{Lab, LabError, Run};
 use glam::DVec3;
 use toile::model::{Model, StepSettings};
-use toile::scene::{Pin, Rule, Settings, VelocityModification};
+use toile::scene::{Pin, Rule, Settings, Threshold, VelocityModification};
 
 /// Particles on a side.
 const N: u32 = 9;
@@ -68,7 +68,7 @@ pub fn rest_error(lab: &Lab, rule: Rule, sweeps: u32) -> Result<Distance, LabErr
     settings.fabric.structural_stiffness = 2.0;
     settings.fabric.shear_stiffness = 1.0;
     settings.fabric.bend_stiffness = 0.2;
-    settings.fabric.threshold = 0.01;
+    settings.fabric.threshold = Threshold::even(0.01);
     settings.fabric.damping = 20.0;
     let pins = (0..N).map(|column| Pin { column, row: 0 }).collect();
     let model = Model::from_sheet(&square(N, 1.0, DVec3::ZERO, DVec3::NEG_Y, pins), &settings);
