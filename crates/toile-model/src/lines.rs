@@ -55,7 +55,13 @@ pub(crate) struct Span {
     pub(crate) threshold: f64,
 }
 
-/// A part of a line, on which no particle comes twice.
+/// All edges that go straight on.
+struct Chain {
+    steps: Vec<Edge>,
+    is_ring: bool,
+}
+
+/// A part of a chain, on which no particle comes twice.
 pub(crate) struct Line {
     /// Particles of the sewn cloth, one after the other.
     pub(crate) particles: Vec<u32>,
@@ -176,29 +182,48 @@ impl<'a> Cloth<'a> {
 }
 
 impl Lines {
-    /// The lines, cut where a particle would come again and where they have so many particles. Every edge is in just one.
-    pub(crate) fn cut(&self, particles_max: usize) -> Vec<Line> {
-        let mut used = vec![false; self.edges.len()];
+    /// The lines, cut where a particle would come again and where they have so many particles, and across each cut a line of up to so
+    /// many edges to both sides: a ring is held where it is cut too.
+    pub(crate) fn cut(&self, particles_max: usize, edges_across: usize) -> Vec<Line> {
         let mut lines = Vec::new();
+        let mut across = Vec::new();
+        for chain in self.chains() {
+            let mut start = 0;
+            while start < chain.steps.len() {
+                // A ring is cut at its beginning; the cut before its last edge is next to that one.
+                let is_cut = if chain.is_ring { start + 1 < chain.steps.len() } else { start > 0 };
+                if is_cut {
+                    across.extend(chain.around(start, edges_across));
+                }
+                let line = chain.line(start, particles_max - 1);
+                start += line.steps.len();
+                lines.push(line);
+            }
+        }
+        lines.extend(across);
+        lines
+    }
+
+    /// The edges that go straight on, one after the other. Every edge is in just one chain.
+    fn chains(&self) -> Vec<Chain> {
+        let mut used = vec![false; self.edges.len()];
+        let mut chains = Vec::new();
         let begins = |step: &u32| self.next[*step as usize ^ 1] == NONE;
         let steps = 0..2 * self.edges.len() as u32;
         // A ring has no step that begins it: it is taken last, from its first edge on.
         for first in steps.clone().filter(begins).chain(steps) {
             let mut here = first;
-            let mut line: Option<Line> = None;
+            let mut chain = Chain { steps: Vec::new(), is_ring: false };
             while here != NONE && !std::mem::replace(&mut used[here as usize / 2], true) {
-                let edge = self.towards(here);
-                let [from, to] = edge.ends;
-                let open = line.take_if(|line| line.particles.len() == particles_max || line.particles.contains(&to));
-                lines.extend(open);
-                let line = line.get_or_insert_with(|| Line { particles: vec![from], steps: Vec::new() });
-                line.particles.push(to);
-                line.steps.push(edge);
+                chain.steps.push(self.towards(here));
                 here = self.next[here as usize];
             }
-            lines.extend(line);
+            chain.is_ring = here == first;
+            if !chain.steps.is_empty() {
+                chains.push(chain);
+            }
         }
-        lines
+        chains
     }
 
     /// The edge of a step, its ends in the direction of the step.
@@ -209,6 +234,33 @@ impl Lines {
             edge.flat_ends.reverse();
         }
         edge
+    }
+}
+
+impl Chain {
+    /// From a step on, at most so many edges and no particle twice.
+    fn line(&self, start: usize, edges_max: usize) -> Line {
+        let mut line = Line { particles: vec![self.steps[start].ends[0]], steps: Vec::new() };
+        for &edge in self.steps[start..].iter().take(edges_max) {
+            if line.particles.contains(&edge.ends[1]) {
+                break;
+            }
+            line.particles.push(edge.ends[1]);
+            line.steps.push(edge);
+        }
+        line
+    }
+
+    /// Up to so many edges on both sides of the particle where a step begins, no particle twice.
+    fn around(&self, step: usize, edges: usize) -> Option<Line> {
+        let count = self.steps.len();
+        let edges = if self.is_ring { edges.min((count - 1) / 2) } else { edges.min(step).min(count - step) };
+        let steps: Vec<Edge> = (0..2 * edges).map(|k| self.steps[(count + step - edges + k) % count]).collect();
+        // Where the chain crosses itself so near to the cut, what is left of it reaches less far.
+        (0..edges)
+            .map(|less| Self { steps: steps[less..steps.len() - less].to_vec(), is_ring: false })
+            .map(|chain| (chain.line(0, chain.steps.len()), chain.steps.len()))
+            .find_map(|(line, count)| (line.steps.len() == count).then_some(line))
     }
 }
 

@@ -22,8 +22,8 @@ impl Model {
     pub(crate) fn add_strands(&mut self, cloth: &Cloth<'_>) {
         let cells_max = CELLS_MIN.max(((cloth.particle_count as f64).sqrt() * CELLS_PART).round() as usize);
         let rims = cloth.rims();
-        let sides = cloth.side_lines().cut(STRAND_PARTICLES_MAX as usize);
-        let diagonals = cloth.diagonal_lines().cut(STRAND_PARTICLES_MAX as usize);
+        let [sides, diagonals] = [cloth.side_lines(), cloth.diagonal_lines()]
+            .map(|lines| lines.cut(STRAND_PARTICLES_MAX as usize, cells_max));
         let lines: Vec<&Line> =
             sides.iter().chain(&diagonals).filter(|line| line.particles.len() >= STRAND_PARTICLES_MIN).collect();
         let colours = line_colours(&lines, cloth.particle_count);

@@ -39,7 +39,7 @@ fn sheet_of(columns: u32, rows: u32, pins: Vec<Pin>, settings: &Settings) -> Mod
     Model::from_sheet(&sheet, settings)
 }
 
-/// No two strands of a colour share a particle, no strand has one twice, and strands and loose limits hold every spring once.
+/// No two strands of a colour share a particle, no strand has one twice, and strands or a loose limit hold every spring.
 fn check_strands(model: &Model) {
     let mut end = 0;
     for colour in &model.strand_colours {
@@ -63,6 +63,9 @@ fn check_strands(model: &Model) {
     };
     let mut held: Vec<[u32; 2]> = model.strands.iter().flat_map(single).chain(ends).collect();
     held.sort_unstable();
+    let is_loose = |ends: &[u32; 2]| model.loose_limits.iter().any(|l| l.ends == *ends);
+    assert!(held.chunk_by(|a, b| a == b).all(|same| same.len() == 1 || !is_loose(&same[0])), "loose, and on a strand");
+    held.dedup();
     let mut limits: Vec<[u32; 2]> = model.limits.iter().map(|l| l.ends).collect();
     limits.sort_unstable();
     assert_eq!(held, limits);
@@ -190,6 +193,29 @@ fn they_reach_across_seams_and_let_a_tube_be_round() {
         across += usize::from(sides[0] != sides[1]);
     }
     assert!(across > 100, "{across} limits lead from the front to the back");
+}
+
+/// A ring, or a line that is longer than a strand, is cut somewhere; a strand across the cut holds the cloth there.
+#[test]
+fn every_particle_of_a_line_is_amid_long_limits() {
+    let (tube, _) = Model::from_garment(&tube(), &hierarchical(0.02)).unwrap().sewn();
+    let hem: Vec<u32> = (0..tube.particle_count()).filter(|&i| tube.flat[i as usize].y == 0.0).collect();
+    assert_eq!(hem.len(), 30);
+    let long = sheet(1100, 3, Vec::new());
+    for (model, line, inner) in [(&tube, hem.clone(), hem), (&long, (0..1100).collect(), (4..1096).collect())] {
+        check_strands(model);
+        let amid: BTreeSet<u32> = model
+            .strands
+            .iter()
+            .flat_map(|strand| {
+                let particles = &model.strand_particles[strand.particles.start as usize..strand.particles.end as usize];
+                particles.windows(9)
+            })
+            .filter(|window| window.iter().all(|particle| line.contains(particle)))
+            .map(|window| window[4])
+            .collect();
+        assert_eq!(amid, inner.into_iter().collect());
+    }
 }
 
 #[test]

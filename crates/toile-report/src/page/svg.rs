@@ -178,7 +178,10 @@ fn draw_legend(svg: &mut String, plot: &Plot, hidden: usize) {
         y += 5.0;
     }
     if hidden > 0 {
-        put(svg, format_args!("<text class=\"faint\" x=\"{start}\" y=\"{y}\">zero, not shown: {hidden} points</text>"));
+        put(
+            svg,
+            format_args!("<text class=\"faint\" x=\"{start}\" y=\"{y}\">not shown: {hidden} points at zero</text>"),
+        );
     }
 }
 
