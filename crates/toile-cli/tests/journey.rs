@@ -111,6 +111,19 @@ fn a_plan_needs_no_adapter() {
 }
 
 #[test]
+fn a_plan_is_also_a_picture_of_the_limits() {
+    let journey = Journey::new();
+    let skirt = fixture("garments/skirt.json");
+    let said = good(journey.run(&["plan", "--garment", &skirt, "--spacing", "4cm", "--picture", "limits.svg"]));
+    assert!(said.ends_with("wrote limits.svg\n"), "{said}");
+    let svg = fs::read_to_string(journey.folder.path().join("limits.svg")).expect("a picture");
+    assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n"));
+    assert!(svg.matches("<path class=\"strand").count() > 50);
+    let sentence = refused(journey.run(&["plan", "--garment", &skirt, "--picture", "none/limits.svg"]));
+    assert!(sentence.starts_with("none/limits.svg"), "{sentence}");
+}
+
+#[test]
 fn the_plan_is_what_the_run_does() {
     let journey = Journey::new();
     let with = |command: &str| {
