@@ -11,4 +11,5 @@ mod sewing;
 mod statics;
 mod status;
 mod support;
+mod time_step;
 mod wind;
