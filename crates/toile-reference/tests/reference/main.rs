@@ -8,6 +8,7 @@ mod limits;
 mod maps;
 mod normals;
 mod sewing;
+mod shortening;
 mod statics;
 mod status;
 mod support;
