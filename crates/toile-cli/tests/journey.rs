@@ -409,6 +409,13 @@ fn every_rule_is_shown_and_the_default_holds_where_others_run_away() {
     let elongation = |row: usize| rows[row]["elongation_max_over_run"].as_f64().expect("a number");
     assert!(elongation(6) < 0.07 && elongation(5) < elongation(0), "{} and {}", elongation(6), elongation(5));
     assert_eq!(journey.names("out"), ["rules.json", "rules.png"]);
+    // The sphere goes 100 mm in these 40 frames.
+    let [end, mean, max] = ["lag_m", "lag_mean_m", "lag_max_over_run_m"].map(|key| rows[6][key].as_f64().expect(key));
+    assert!(0.0 < mean && mean < max && end <= max && max < 0.02, "{mean}, {max} and {end} m behind");
+    let hang = fixture("scenes/hang.toml");
+    let options = ["--set", "n=8", "--set", "frames=1", "--backend", "reference", "--json"];
+    let told = json(&good(journey.run(&[&["rules", &hang], &options[..]].concat())));
+    assert!(list(&told).iter().all(|row| row["lag_mean_m"].is_null()), "there is nothing to be behind of");
     let garment = fixture("garments/skirt.json");
     fs::write(journey.folder.path().join("g.toml"), format!("[[garment]]\nfile = {garment:?}\n")).expect("written");
     assert!(refused(journey.run(&["rules", "g.toml"])).contains("not one sheet"));
