@@ -172,6 +172,9 @@ pub struct PlanOf {
     /// What is worn.
     #[command(flatten)]
     pub outfit: Outfit,
+    /// Draw the flat panels with strands, loose limits and seams.
+    #[arg(long, value_name = "FILE.svg")]
+    pub picture: Option<PathBuf>,
     /// Print it as JSON, and nothing else.
     #[arg(long)]
     pub json: bool,

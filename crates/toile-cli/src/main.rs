@@ -8,6 +8,7 @@ mod interrupt;
 mod mesa_layer;
 mod metrics;
 mod output;
+mod pattern;
 mod picture;
 mod progress;
 mod simulate;

@@ -111,6 +111,19 @@ fn a_plan_needs_no_adapter() {
 }
 
 #[test]
+fn a_plan_is_also_a_picture_of_the_limits() {
+    let journey = Journey::new();
+    let skirt = fixture("garments/skirt.json");
+    let said = good(journey.run(&["plan", "--garment", &skirt, "--spacing", "4cm", "--picture", "limits.svg"]));
+    assert!(said.ends_with("wrote limits.svg\n"), "{said}");
+    let svg = fs::read_to_string(journey.folder.path().join("limits.svg")).expect("a picture");
+    assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n"));
+    assert!(svg.matches("<path class=\"strand").count() > 50);
+    let sentence = refused(journey.run(&["plan", "--garment", &skirt, "--picture", "none/limits.svg"]));
+    assert!(sentence.starts_with("none/limits.svg"), "{sentence}");
+}
+
+#[test]
 fn the_plan_is_what_the_run_does() {
     let journey = Journey::new();
     let with = |command: &str| {
@@ -396,6 +409,13 @@ fn every_rule_is_shown_and_the_default_holds_where_others_run_away() {
     let elongation = |row: usize| rows[row]["elongation_max_over_run"].as_f64().expect("a number");
     assert!(elongation(6) < 0.07 && elongation(5) < elongation(0), "{} and {}", elongation(6), elongation(5));
     assert_eq!(journey.names("out"), ["rules.json", "rules.png"]);
+    // The sphere goes 100 mm in these 40 frames.
+    let [end, mean, max] = ["lag_m", "lag_mean_m", "lag_max_over_run_m"].map(|key| rows[6][key].as_f64().expect(key));
+    assert!(0.0 < mean && mean < max && end <= max && max < 0.02, "{mean}, {max} and {end} m behind");
+    let hang = fixture("scenes/hang.toml");
+    let options = ["--set", "n=8", "--set", "frames=1", "--backend", "reference", "--json"];
+    let told = json(&good(journey.run(&[&["rules", &hang], &options[..]].concat())));
+    assert!(list(&told).iter().all(|row| row["lag_mean_m"].is_null()), "there is nothing to be behind of");
     let garment = fixture("garments/skirt.json");
     fs::write(journey.folder.path().join("g.toml"), format!("[[garment]]\nfile = {garment:?}\n")).expect("written");
     assert!(refused(journey.run(&["rules", "g.toml"])).contains("not one sheet"));

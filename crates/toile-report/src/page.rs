@@ -246,7 +246,7 @@ impl Series {
     }
 }
 
-/// A text in which nothing is taken for a tag.
-fn escaped(text: &str) -> String {
+/// A text in which nothing is taken for a tag of HTML or SVG.
+pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -2,29 +2,51 @@
 
 use crate::args::PlanOf;
 use crate::commands::{outfit, print};
+use crate::pattern::{self, Pattern};
 use crate::simulate::sphere;
 use anyhow::Result;
 use glam::Vec3;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
-use toile::files::read_scene;
+use toile::files::{read_scene, write_atomically};
 use toile::gpu::{BodyMaps, Kernel, KernelRuns, Pass, Plan, kernel_runs};
-use toile::model::{MapFrame, Maps, Model, Needs, StepSettings};
+use toile::model::{MapFrame, Maps, Merge, Model, Needs, StepSettings};
 use toile::scene::{Body, Cloth, Scene};
 
-/// Prints passes, dispatches and bytes of every cloth of a scene.
+/// Prints passes, dispatches and bytes of every cloth of a scene; draws the limits of all of them when a picture is wanted.
 pub fn run(arguments: &PlanOf) -> Result<()> {
     let file = match &arguments.scene {
         Some(path) => read_scene(path, &arguments.set)?,
         None => outfit::read(&arguments.outfit)?,
     };
-    let plans = plans(&file.scene)?;
-    if arguments.json {
-        print(&serde_json::to_string_pretty(&plans)?)
-    } else {
-        plans.iter().try_for_each(|plan| print(&plan.to_string()))
+    let patterns = patterns(&file.scene)?;
+    let plans = plans(&file.scene, &patterns)?;
+    if let Some(path) = &arguments.picture {
+        write_atomically(path, pattern::draw(&patterns).as_bytes())?;
     }
+    if arguments.json {
+        return print(&serde_json::to_string_pretty(&plans)?);
+    }
+    plans.iter().try_for_each(|plan| print(&plan.to_string()))?;
+    arguments.picture.iter().try_for_each(|path| print(&format!("wrote {}", path.display())))
+}
+
+/// The cloths of a scene in the order of dressing.
+fn patterns(scene: &Scene) -> Result<Vec<Pattern>> {
+    let pattern = |cloth: &Cloth| match cloth {
+        Cloth::Sheet(sheet) => {
+            let open = Model::from_sheet(sheet, &scene.settings);
+            let merge = Merge::identity(open.particle_count());
+            Ok(Pattern { name: sheet.name.clone(), open, sewn: None, merge })
+        }
+        Cloth::Garment(garment) => {
+            let open = Model::from_garment(garment, &scene.settings)?;
+            let (sewn, merge) = open.sewn();
+            Ok(Pattern { name: garment.name.clone(), open, sewn: Some(sewn), merge })
+        }
+    };
+    scene.cloths.iter().map(pattern).collect()
 }
 
 /// What one model of a cloth gets.
@@ -57,19 +79,15 @@ struct KernelPlan {
     items: u64,
 }
 
-/// The plans of all cloths in the order of dressing; a garment has one for sewing and one for draping.
-fn plans(scene: &Scene) -> Result<Vec<ClothPlan>> {
+/// The plans of all cloths; a garment has one for sewing and one for draping.
+fn plans(scene: &Scene, patterns: &[Pattern]) -> Result<Vec<ClothPlan>> {
     let sphere = sphere(scene)?.is_some();
     let mut bounds = bounds(scene);
     let mut plans = Vec::new();
-    for cloth in &scene.cloths {
-        let (name, models) = match cloth {
-            Cloth::Sheet(sheet) => (&sheet.name, vec![("sheet", Model::from_sheet(sheet, &scene.settings))]),
-            Cloth::Garment(garment) => {
-                let open = Model::from_garment(garment, &scene.settings)?;
-                let (sewn, _) = open.sewn();
-                (&garment.name, vec![("open", open), ("sewn", sewn)])
-            }
+    for Pattern { name, open, sewn, .. } in patterns {
+        let models = match sewn {
+            None => vec![("sheet", open)],
+            Some(sewn) => vec![("open", open), ("sewn", sewn)],
         };
         let map_bytes =
             bounds.map_or(0, |b| BodyMaps::bytes_over(&MapFrame::around(b, scene.settings.texel as f32), false));

@@ -11,7 +11,7 @@ use crate::progress::Progress;
 use crate::simulate::sphere;
 use crate::sphere_mesh::sphere_mesh;
 use anyhow::{Result, bail};
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use serde::Serialize;
 use toile::files::{SceneFile, read_scene, write_atomically};
 use toile::model::{Model, Status, StepSettings};
@@ -41,8 +41,12 @@ struct Row {
     elongation_max_over_run: f32,
     /// Largest elongation in the picture [1].
     elongation_max: f32,
-    /// How far the mean of the cloth is behind the centre of the sphere [m], without y; null without a sphere.
+    /// How far the centre of mass of the cloth is from the centre of the sphere [m], without y; null without a sphere.
     lag_m: Option<f64>,
+    /// The mean of it at the end of all sound frames [m].
+    lag_mean_m: Option<f64>,
+    /// The largest of it at the end of any of them [m].
+    lag_max_over_run_m: Option<f64>,
 }
 
 /// Runs the scene once per rule; writes `rules.png` and `rules.json`.
@@ -107,7 +111,14 @@ fn try_rule(
         elongation_max_over_run: 0.0,
         elongation_max: 0.0,
         lag_m: None,
+        lag_mean_m: None,
+        lag_max_over_run_m: None,
     };
+    let lag = |positions: &[Vec3], status: &Status| {
+        let time = status.step as f64 * f64::from(step.dt);
+        sphere.as_ref().map(|sphere| lag(positions, &model.masses, sphere.at(time).0))
+    };
+    let mut lags = Vec::new();
     let progress = Progress::new(name, quiet);
     while row.frames_sound < file.frames {
         match engine.frame() {
@@ -115,6 +126,7 @@ fn try_rule(
                 last = status;
                 state = engine.state()?;
                 row.frames_sound += 1;
+                lags.extend(lag(&state.positions, &status));
                 row.elongation_max_over_run = row.elongation_max_over_run.max(status.elongation_max);
                 progress.say(format!("frame {} of {}", row.frames_sound, file.frames));
             }
@@ -127,19 +139,31 @@ fn try_rule(
     }
     progress.finish(format!("{} frames", row.frames_sound));
     row.elongation_max = last.elongation_max;
-    let time = last.step as f64 * f64::from(step.dt);
-    let centre = |sphere: &Sphere| sphere.at(time).0;
-    let mean = state.positions.iter().map(|p| p.as_dvec3()).sum::<DVec3>() / state.positions.len().max(1) as f64;
-    row.lag_m = sphere.as_ref().map(|sphere| ((mean - centre(sphere)) * DVec3::new(1.0, 0.0, 1.0)).length());
+    row.lag_m = lags.last().copied();
+    row.lag_mean_m = row.lag_m.map(|_| lags.iter().sum::<f64>() / lags.len() as f64);
+    row.lag_max_over_run_m = lags.iter().copied().reduce(f64::max);
+    let centre = |sphere: &Sphere| sphere.at(last.step as f64 * f64::from(step.dt)).0;
     let ball = sphere.as_ref().map(|sphere| sphere_mesh(centre(sphere), sphere.radius));
     Ok((row, Mesh { positions: state.positions, normals: state.normals, triangles: model.triangles() }, ball))
+}
+
+/// Distance of the centre of mass of the cloth from a point [m], without y.
+fn lag(positions: &[Vec3], masses: &[f32], point: DVec3) -> f64 {
+    let mass: f64 = masses.iter().map(|mass| f64::from(*mass)).sum();
+    let moment: DVec3 = positions.iter().zip(masses).map(|(place, mass)| place.as_dvec3() * f64::from(*mass)).sum();
+    (moment / mass - point).with_y(0.0).length()
 }
 
 impl Row {
     fn line(&self) -> String {
         let end =
             if self.diverged { format!("ran away after {} frames", self.frames_sound) } else { "sound".to_owned() };
-        let lag = self.lag_m.map_or(String::new(), |lag| format!(" · {:.0} mm behind the sphere", 1e3 * lag));
+        let lag = match (self.lag_mean_m, self.lag_max_over_run_m) {
+            (Some(mean), Some(max)) => {
+                format!(" · {:.1} mm behind the sphere (at most {:.1} mm)", 1e3 * mean, 1e3 * max)
+            }
+            _ => String::new(),
+        };
         format!(
             "{:<12} {end} · {} steps per frame · elongation {:.1} % (over the run {:.1} %){lag}",
             self.rule,
