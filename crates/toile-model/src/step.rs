@@ -5,8 +5,8 @@ use crate::assemble::aim;
 use glam::Vec3;
 use toile_scene::{Friction, Rule, Settings, Wind};
 
-/// Twenty times the weight of the cloth: of cotton about 30 Pa, as if it were drawn with 3 N/m around a waist [m/s²].
-const PRESSING: f32 = 200.0;
+/// Eighty times the weight of the cloth: of cotton about 120 Pa, as if it were drawn with 12 N/m around a waist [m/s²].
+const PRESSING: f32 = 800.0;
 
 /// The numbers of one step, the same for every particle.
 #[derive(Clone, Debug, PartialEq)]
