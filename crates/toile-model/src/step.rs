@@ -2,7 +2,7 @@
 
 use crate::Model;
 use glam::Vec3;
-use toile_scene::{Friction, Rule, Settings, Wind};
+use toile_scene::{Friction, Polish, Rule, Settings, Wind};
 
 /// Twenty times the weight of the cloth: of cotton about 30 Pa, as if it were drawn with 3 N/m around a waist [m/s²].
 const PRESSING: f32 = 200.0;
@@ -43,6 +43,8 @@ pub struct StepSettings {
     pub rule: Rule,
     /// Sweeps over all limits per step.
     pub sweeps: u32,
+    /// Further sweeps in steps that need them.
+    pub polish: Option<Polish>,
     /// Elongation that the limits allow [1].
     pub threshold: f32,
     /// Whether the whole way of a point is tested against the bodies, not its end alone.
@@ -73,6 +75,7 @@ impl StepSettings {
             hold_speed: 0.5,
             rule: settings.velocity_modification.rule,
             sweeps: settings.velocity_modification.sweeps,
+            polish: settings.velocity_modification.polish,
             threshold: settings.fabric.threshold as f32,
             swept: settings.swept,
         }
@@ -80,12 +83,13 @@ impl StepSettings {
 }
 
 impl StepSettings {
-    /// The part of [`Self::push_speed`] that each of the sweeps has [m/s].
+    /// The part of [`Self::push_speed`] that each of the sweeps has [m/s]; further sweeps have as much each.
     pub fn push_speed_per_sweep(&self) -> f32 {
         self.push_speed / self.sweeps.max(1) as f32
     }
 
-    /// The change of normal speed by one sweep that friction counts at most [m/s]: what [`Self::pressing`] gives in a step, in equal parts.
+    /// The change of normal speed by one sweep that friction counts at most [m/s]: what [`Self::pressing`] gives in a step, in equal parts;
+    /// further sweeps count as much each.
     pub fn pressing_speed_per_sweep(&self) -> f32 {
         self.pressing * self.dt / self.sweeps.max(1) as f32
     }
