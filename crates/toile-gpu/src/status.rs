@@ -43,13 +43,13 @@ impl StatusReader {
         Self { slots: (0..SLOT_COUNT).map(slot).collect(), latest: None }
     }
 
-    /// Records the copy of the status buffer, and of the polish if there is one, after step `step`; it maps itself once the
+    /// Records the copy of the status buffer, and of the state of a polish if there is one, after step `step`; it maps itself once the
     /// encoder's commands are done.
     pub(crate) fn record(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
         status: &wgpu::Buffer,
-        polish: Option<&wgpu::Buffer>,
+        polish_state: Option<&wgpu::Buffer>,
         step: u64,
     ) {
         self.collect();
@@ -57,8 +57,8 @@ impl StatusReader {
         slot.step = step;
         slot.state.store(PENDING, Ordering::Release);
         encoder.copy_buffer_to_buffer(status, 0, &slot.buffer, 0, polish_place());
-        if let Some(polish) = polish {
-            encoder.copy_buffer_to_buffer(polish, 0, &slot.buffer, polish_place(), polish.size());
+        if let Some(state) = polish_state {
+            encoder.copy_buffer_to_buffer(state, 0, &slot.buffer, polish_place(), state.size());
         }
         let state = slot.state.clone();
         encoder.map_buffer_on_submit(&slot.buffer, wgpu::MapMode::Read, .., move |result| {
@@ -77,12 +77,11 @@ impl StatusReader {
             if slot.state.load(Ordering::Acquire) != READY {
                 continue;
             }
-            if let Ok(view) = slot.buffer.get_mapped_range(..) {
-                if let Some(status) = decode(&view, slot.step)
-                    && self.latest.is_none_or(|latest| status.step >= latest.step)
-                {
-                    self.latest = Some(status);
-                }
+            if let Ok(view) = slot.buffer.get_mapped_range(..)
+                && let Some(status) = decode(&view, slot.step)
+                && self.latest.is_none_or(|latest| status.step >= latest.step)
+            {
+                self.latest = Some(status);
             }
             slot.buffer.unmap();
             slot.state.store(FREE, Ordering::Release);
