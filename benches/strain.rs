@@ -2,9 +2,10 @@
 //! falls on a sphere, and lies on one that moves, under the rules that stay bounded. One row for each rule, scene and size: largest and
 //! 99th percentile of the elongation at the end, the largest at the end of any frame, steps per frame, sweeps, passes and state
 //! copies per frame; how fast the centre of mass of a free crumpled sheet drifts by itself as part of its mean speed, and by how much
-//! its kinetic energy grows at most.
+//! its kinetic energy grows at most. With a polish also the further sweeps and the missed steps of the run, per step; its passes are
+//! those that it may have, its cost is that of the steps after the run.
 //!
-//! `cargo bench --bench strain`, or with `-- --n 64,128 --rule hierarchical --scene hang --threshold 0.01 --frames 60`.
+//! `cargo bench --bench strain`, or with `-- --n 64,128 --rule hierarchical --scene hang --threshold 0.01 --frames 60 --polish 0.015,8`.
 
 mod support;
 
@@ -12,8 +13,8 @@ use glam::{DVec3, Vec3};
 use support::Bench;
 use toile::gpu::readback;
 use toile::model::{Limit, Model, StepSettings};
-use toile::scene::{Body, Cloth, Rule, Scene, Settings, Sheet, Threshold, VelocityModification};
-use toile::{Colliders, Simulation};
+use toile::scene::{Body, Cloth, Polish, Rule, Scene, Settings, Sheet, Threshold, VelocityModification};
+use toile::{Colliders, Simulation, Strain};
 use toile_workspace::{Random, scene};
 
 const RULES: [(&str, Rule); 3] =
@@ -27,7 +28,7 @@ fn main() {
     let options = Options::read();
     let bench = Bench::open();
     println!(
-        "{:<12} {:<12} {:>5} {:>9} | {:>8} {:>8} {:>8} | {:>5} {:>6} {:>6} {:>9} {:>8} | {:>8} {:>8}",
+        "{:<12} {:<12} {:>5} {:>9} | {:>8} {:>8} {:>8} | {:>5} {:>6} {:>6} {:>9} {:>8} | {:>8} {:>8} | {:>8} {:>8}",
         "rule",
         "scene",
         "n",
@@ -41,7 +42,9 @@ fn main() {
         "ms",
         "copies",
         "drift",
-        "energy"
+        "energy",
+        "further",
+        "missed"
     );
     for name in &options.scenes {
         for n in &options.sizes {
@@ -58,6 +61,7 @@ struct Options {
     sizes: Vec<u32>,
     threshold: f64,
     frames: Option<u32>,
+    polish: Option<Polish>,
 }
 
 impl Options {
@@ -70,6 +74,7 @@ impl Options {
             sizes: vec![64, 128, 256],
             threshold: 0.05,
             frames: None,
+            polish: None,
         };
         let mut arguments = std::env::args().skip(1).filter(|argument| argument != "--bench");
         while let Some(option) = arguments.next() {
@@ -81,7 +86,13 @@ impl Options {
                 "--n" => options.sizes = list().iter().map(|n| n.parse().expect("sizes are numbers")).collect(),
                 "--threshold" => options.threshold = value.parse().expect("the threshold is a number"),
                 "--frames" => options.frames = Some(value.parse().expect("the frames are a number")),
-                _ => panic!("there is no option {option}: --scene, --rule, --n, --threshold, --frames"),
+                "--polish" => {
+                    let (target, sweeps) = value.split_once(',').expect("a polish is TARGET,SWEEPS");
+                    let target = target.parse().expect("the target is a number");
+                    let sweeps = sweeps.parse().expect("the sweeps are a number");
+                    options.polish = Some(Polish { target, sweeps });
+                }
+                _ => panic!("there is no option {option}: --scene, --rule, --n, --threshold, --frames, --polish"),
             }
         }
         options
@@ -101,12 +112,16 @@ struct Row {
     drift: f64,
     /// Largest kinetic energy of a free sheet without springs, as part of that at the start, less one.
     energy_growth: f64,
+    further_sweeps_per_step: f64,
+    missed_steps_per_step: f64,
 }
 
 impl Row {
     fn measure(bench: &Bench, name: &str, n: u32, rule: Rule, options: &Options) -> Self {
         let mut scene = scene(name, &[("n", &n.to_string())]);
-        scene.settings.velocity_modification = VelocityModification::new(rule);
+        // A polish works under the predictive rules alone.
+        let polish = options.polish.filter(|_| rule != Rule::None);
+        scene.settings.velocity_modification = VelocityModification { polish, ..VelocityModification::new(rule) };
         scene.settings.fabric.threshold = Threshold::even(options.threshold);
         let model = Model::from_sheet(sheet(&scene), &scene.settings);
         let settings = StepSettings::new(&scene.settings, &model);
@@ -126,6 +141,12 @@ impl Row {
             over_run = over_run.max(elongations[elongations.len() - 1]);
         }
         let elongations = frame(bench, &mut simulation, &model.limits).unwrap_or_else(|| vec![f64::INFINITY]);
+        let strain = simulation.strain().ok().flatten();
+        let per_step = |count: fn(&Strain) -> u32| {
+            strain.as_ref().map_or(f64::INFINITY, |strain| f64::from(count(strain)) / strain.step as f64)
+        };
+        let further_sweeps_per_step = per_step(|strain| strain.further_sweeps);
+        let missed_steps_per_step = per_step(|strain| strain.missed_steps);
         let cost = bench.step_cost(&mut simulation, STEPS);
         let dispatches: u32 = cost.kernels.iter().map(|(_, dispatches, _)| dispatches).sum();
         let steps = settings.steps_per_frame;
@@ -141,12 +162,14 @@ impl Row {
             copies_per_frame: f64::from(steps) * cost.step() / cost.state_copy,
             drift,
             energy_growth,
+            further_sweeps_per_step,
+            missed_steps_per_step,
         }
     }
 
     fn print(&self, rule: &str, scene: &str, n: u32, threshold: f64) {
         println!(
-            "{rule:<12} {scene:<12} {n:>5} {threshold:>9} | {:>8.4} {:>8.4} {:>8.4} | {:>5} {:>6} {:>6} {:>9.1} {:>8.0} | {:>8.1e} {:>8.1e}",
+            "{rule:<12} {scene:<12} {n:>5} {threshold:>9} | {:>8.4} {:>8.4} {:>8.4} | {:>5} {:>6} {:>6} {:>9.1} {:>8.0} | {:>8.1e} {:>8.1e} | {:>8.2} {:>8.3}",
             self.elongation_max,
             self.elongation_p99,
             self.elongation_max_over_run,
@@ -157,6 +180,8 @@ impl Row {
             self.copies_per_frame,
             self.drift,
             self.energy_growth,
+            self.further_sweeps_per_step,
+            self.missed_steps_per_step,
         );
     }
 }

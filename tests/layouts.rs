@@ -29,6 +29,8 @@ macro_rules! for_every_struct {
             Displacement,
             Influence,
             Joint,
+            Polish,
+            PolishState,
             Status
         )
     };

@@ -2,16 +2,16 @@
 
 use glam::DVec3;
 use std::fmt::Write;
-use toile_gpu::Plan;
+use toile_gpu::{Pass, Plan};
 use toile_kernels::{Kernel, TABLE};
 use toile_model::{Maps, Model, Needs, StepSettings};
-use toile_scene::{Body, Cloth, Rule, Scene, Settings, Wind};
+use toile_scene::{Body, Cloth, Polish, Rule, Scene, Settings, Wind};
 use toile_workspace::{GARMENTS, SCENES, garment, scene, settings};
 
 fn plan(model: &Model, settings: &StepSettings, bodies: &[Body]) -> Plan {
     let maps = if bodies.iter().any(|body| matches!(body, Body::Mesh(_))) { Maps::Still } else { Maps::None };
     let sphere = bodies.iter().any(|body| matches!(body, Body::Sphere(_)));
-    Plan::new(model, &Needs::new(model, settings, maps, sphere), settings.sweeps)
+    Plan::new(model, &Needs::new(model, settings, maps, sphere), settings)
 }
 
 fn plan_of_scene(scene: &Scene) -> Plan {
@@ -79,6 +79,60 @@ fn a_scene_with_wind_has_its_passes_and_bytes_and_one_without_has_not() {
         assert_eq!(windy.0.frame, calm.0.frame, "{name}");
         assert_eq!(windy.1.get("quad_winds"), Some(&(16 * windy.2)), "{name}");
         assert!(!calm.1.contains_key("quad_winds"), "{name}: {:?}", calm.1);
+    }
+}
+
+#[test]
+fn a_polish_repeats_the_sweep_behind_grants_and_a_plan_without_has_neither() {
+    for name in SCENES {
+        let plain = scene(name, &[]);
+        let polished = scene(name, &[("polish", "{ target = 0.05, sweeps = 3 }")]);
+        let [plain, polished] = [plain, polished].map(|scene| {
+            let Cloth::Sheet(sheet) = &scene.cloths[0] else { panic!("{name} has a sheet") };
+            let model = Model::from_sheet(sheet, &scene.settings);
+            let settings = StepSettings::new(&scene.settings, &model);
+            let plan = plan(&model, &settings, &scene.bodies);
+            let bytes = plan.buffer_sizes(&model, &settings);
+            (plan, bytes)
+        });
+        let is_decision = |pass: &&Pass| pass.kernel == Kernel::GrantSweep;
+        let free: Vec<_> = polished.0.step.iter().filter(|pass| pass.grant.is_none()).cloned().collect();
+        let undecided: Vec<_> = free.iter().filter(|pass| !is_decision(pass)).cloned().collect();
+        let mut expected = plain.0.step.clone();
+        let measurement = Pass::over(Kernel::MeasureExcess, 16_002);
+        expected.insert(expected.len() - 1, measurement.clone());
+        assert_eq!(undecided, expected, "{name}: what needs no grant is the plain step with one measurement");
+        assert_eq!(free.iter().filter(is_decision).count(), 4, "{name}: before each further sweep and after the last");
+
+        let sweep: Vec<_> = plain.0.step[..plain.0.step.len() - 1].iter().skip_while(|p| !is_limit(p)).collect();
+        let further: Vec<Pass> =
+            sweep[..sweep.len() / 4].iter().map(|pass| (*pass).clone()).chain([measurement]).collect();
+        let numbered = further.iter().zip(0..).map(|(pass, place)| Pass { grant: Some(place), ..pass.clone() });
+        let granted: Vec<_> = polished.0.step.iter().filter(|pass| pass.grant.is_some()).cloned().collect();
+        let three: Vec<Pass> = numbered.cycle().take(3 * further.len()).collect();
+        assert_eq!(granted, three, "{name}: three times the sweep, each measured");
+
+        assert_eq!(polished.0.frame, plain.0.frame, "{name}");
+        let new: Vec<_> = polished.1.iter().filter(|(buffer, _)| !plain.1.contains_key(*buffer)).collect();
+        let bytes = 16 * further.len() as u64;
+        let expected = [("polish", 16), ("polish_state", 16), ("sweep_dispatches", bytes), ("sweep_workgroups", bytes)];
+        assert_eq!(new.into_iter().map(|(name, size)| (name.as_str(), *size)).collect::<Vec<_>>(), expected, "{name}");
+    }
+}
+
+fn is_limit(pass: &&Pass) -> bool {
+    matches!(pass.kernel, Kernel::LimitAttachments | Kernel::LimitStrands | Kernel::LimitPredictive)
+}
+
+#[test]
+fn a_garment_is_sewn_and_eases_without_a_polish() {
+    let mut polished = settings(0.03);
+    polished.velocity_modification.polish = Some(Polish { target: 0.05, sweeps: 2 });
+    let open = Model::from_garment(&garment("skirt"), &polished).unwrap_or_else(|error| panic!("{error}"));
+    let step = StepSettings::new(&polished, &open);
+    for (settings, polish) in [(&step, true), (&step.sewing(), false), (&step.easing(), false), (&step.draping(), true)]
+    {
+        assert_eq!(plan(&open, settings, &[]).kernels().contains(&Kernel::GrantSweep), polish);
     }
 }
 

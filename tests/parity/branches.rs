@@ -151,6 +151,21 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
             see("is outside but comes near", (0..points.len()).filter(|i| reached(i) && !inside(i)).count());
         }
         Kernel::Collide => collide(before, after, &mut see),
+        Kernel::MeasureExcess => {
+            let above = after.polish_state.elongation_max;
+            see("is above the target", usize::from(above > 0.0));
+            let target = before.polish().target as f32;
+            let at = |i: u32| positions[i as usize] + before.particles.velocities[i as usize] * before.settings.dt;
+            let elongation = |l: &toile_model::Limit| (at(l.ends[1]) - at(l.ends[0])).length() / l.rest_length - 1.0;
+            see("is not above it", before.limits.iter().filter(|l| elongation(l) <= target).count());
+            see("has an end that is no number", before.limits.iter().filter(|l| elongation(l).is_nan()).count());
+        }
+        Kernel::GrantSweep => {
+            let [old, new] = [&before.polish_state, &after.polish_state];
+            see("grants a sweep", (new.further_sweeps - old.further_sweeps) as usize);
+            see("misses the target", (new.missed_steps - old.missed_steps) as usize);
+            see("holds the target", usize::from(old.elongation_max == 0.0));
+        }
         Kernel::MoveParticles => {
             see("moves", particles().filter(|i| after.particles.positions[*i] != positions[*i]).count())
         }

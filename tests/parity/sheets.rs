@@ -2,7 +2,7 @@
 
 use crate::life::Life;
 use toile_model::{Model, StepSettings};
-use toile_scene::{Body, Cloth, Friction, Rule, Scene, Sphere, Wind};
+use toile_scene::{Body, Cloth, Friction, Polish, Rule, Scene, Sphere, VelocityModification, Wind};
 use toile_workspace::{Layers, finish_frame, first_difference, gpu, scene, uv_sphere, vec3_words};
 
 const RULES: [Rule; 7] =
@@ -52,6 +52,25 @@ fn a_sheet_on_a_sphere_agrees_under_every_rule_and_both_friction_laws() {
                 assert!(life.contacts_max > 0, "{name} {rule:?}: the sheet touches the sphere");
             }
         }
+    }
+}
+
+#[test]
+fn a_polished_sheet_agrees_where_it_holds_and_where_it_misses() {
+    let lower = ("sheet.0.corner", "[-0.5, 0.256, 0.5]");
+    for (name, rule, target) in
+        [("hang", Rule::Hierarchical, 0.0067), ("hang", Rule::Predictive, 0.03), ("ball", Rule::Hierarchical, 0.007)]
+    {
+        let hard = [("n", "17"), ("fabric.threshold", "0.01"), lower];
+        let mut hard = scene(name, &hard);
+        hard.settings.velocity_modification =
+            VelocityModification { polish: Some(Polish { target, sweeps: 2 }), ..VelocityModification::new(rule) };
+        let model = sheet_model(&hard);
+        let mut life = Life::new(&model, &StepSettings::new(&hard.settings, &model), None, sphere(&hard));
+        let status = life.agree(&format!("{name} {rule:?}, polished"), 10);
+        let steps = status.step as u32;
+        assert!(status.missed_steps > 0 && status.missed_steps < steps, "{status:?}");
+        assert!(status.further_sweeps > 2 * status.missed_steps && status.further_sweeps < 2 * steps, "{status:?}");
     }
 }
 

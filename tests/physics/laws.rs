@@ -4,7 +4,7 @@ use glam::Vec3;
 use toile::Simulation;
 use toile_model::{Model, StepSettings};
 use toile_report::experiments::validation::laws::{free_fall_error, momentum_error};
-use toile_scene::{Cloth, Rule, Scene, Settings};
+use toile_scene::{Cloth, Rule, Scene, Settings, VelocityModification};
 use toile_workspace::{advance, gpu, lab, scene};
 
 const RULES: [Rule; 7] =
@@ -59,8 +59,10 @@ fn springs_keep_the_angular_momentum() {
 fn pinned_particles_do_not_move() {
     for rule in RULES {
         let Scene { settings, cloths, .. } = scene("hang", &[("n", "16")]);
-        let settings =
-            Settings { velocity_modification: toile_scene::VelocityModification { rule, sweeps: 2 }, ..settings };
+        let settings = Settings {
+            velocity_modification: VelocityModification { sweeps: 2, ..VelocityModification::new(rule) },
+            ..settings
+        };
         let Cloth::Sheet(sheet) = &cloths[0] else { panic!("hang has a sheet") };
         let model = Model::from_sheet(sheet, &settings);
         let mut simulation = simulate(&model, &StepSettings::new(&settings, &model));

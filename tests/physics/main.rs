@@ -2,5 +2,6 @@
 
 mod friction;
 mod laws;
+mod polish;
 mod stability;
 mod wind;

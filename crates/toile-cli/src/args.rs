@@ -8,6 +8,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::DVec3;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
+use toile::scene::Polish;
 
 /// Cloth simulation on the GPU: sews garments around bodies, drapes them, and says how well.
 #[derive(Debug, Parser)]
@@ -64,6 +65,9 @@ pub struct Outfit {
     /// Fabric: the name of a preset or a TOML file.
     #[arg(long, value_name = "NAME|FILE", default_value = "cotton")]
     pub fabric: String,
+    /// Further sweeps in steps that leave an elongation above TARGET, at most SWEEPS in a step; not while sewing.
+    #[arg(long, value_name = "TARGET,SWEEPS", value_parser = parse_polish)]
+    pub polish: Option<Polish>,
 }
 
 /// Where the results go, and what is said of the run.
@@ -181,7 +185,8 @@ pub struct PlanOf {
 }
 
 /// Names of the options of [`Outfit`], which say nothing about a scene file.
-const OUTFIT_OPTIONS: [&str; 8] = ["body", "body_units", "clip", "time", "garment", "spacing", "texel", "fabric"];
+const OUTFIT_OPTIONS: [&str; 9] =
+    ["body", "body_units", "clip", "time", "garment", "spacing", "texel", "fabric", "polish"];
 
 /// `toile adapters`.
 #[derive(Args, Debug)]
@@ -275,6 +280,23 @@ fn parse_rate(text: &str) -> Result<f64, String> {
     }
 }
 
+fn parse_polish(text: &str) -> Result<Polish, String> {
+    let (targets, bounds) = (Polish::TARGETS, Polish::SWEEPS);
+    let parts = text.split_once(',').map(|(target, sweeps)| (target.trim().parse(), sweeps.trim().parse()));
+    match parts {
+        Some((Ok(target), Ok(sweeps))) if targets.contains(&target) && bounds.contains(&sweeps) => {
+            Ok(Polish { target, sweeps })
+        }
+        _ => Err(format!(
+            "it must be an elongation of {} to {} and {} to {} sweeps, as 0.05,8",
+            targets.start(),
+            targets.end(),
+            bounds.start(),
+            bounds.end()
+        )),
+    }
+}
+
 fn parse_setting(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
         Some((key, value)) if !key.trim().is_empty() => Ok((key.trim().to_owned(), value.trim().to_owned())),
@@ -325,6 +347,14 @@ mod tests {
         assert_eq!(parse_velocity("0, -1.5,3"), Ok(DVec3::new(0.0, -1.5, 3.0)));
         for wrong in ["1,2", "1,2,3,4", "0,nan,0", "0,0,200", "north"] {
             assert!(parse_velocity(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_polish_has_a_target_and_a_bound() {
+        assert_eq!(parse_polish("0.05, 8"), Ok(Polish { target: 0.05, sweeps: 8 }));
+        for wrong in ["0.05", "0.0001,8", "nan,8", "0.05,0", "0.05,65", "0.05,8,1", "fine"] {
+            assert!(parse_polish(wrong).is_err(), "{wrong}");
         }
     }
 

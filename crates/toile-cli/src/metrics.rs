@@ -50,6 +50,9 @@ impl ClothMetrics {
             sewing => format!("sewn in {sewing} steps to {:.1} mm, draped in {}", m.seam_gap_max_mm, m.steps_draping),
         });
         parts.push(format!("elongation {:.1} % (99 of 100: {:.1} %)", 1e2 * m.elongation_max, 1e2 * m.elongation_p99));
+        if m.further_sweeps > 0 {
+            parts.push(format!("{} further sweeps, target missed in {} steps", m.further_sweeps, m.missed_steps));
+        }
         if let (Some(max), Some(p99)) = (m.penetration_max_mm, m.penetration_p99_mm) {
             parts.push(format!("penetration {max:.1} mm (99 of 100: {p99:.1} mm)"));
         }

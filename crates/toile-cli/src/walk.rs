@@ -27,7 +27,7 @@ use std::time::Instant;
 use toile::Outfit;
 use toile::files::{MovingFaces, write_atomically, write_pc2, write_usda};
 use toile::gpu::{Kernel, Timer, readback};
-use toile::model::{Model, StepSettings};
+use toile::model::{Model, Status, StepSettings};
 use toile::scene::{Garment, Mesh, MovingMesh, Settings};
 use toile_reference::ExactDistance;
 
@@ -187,6 +187,7 @@ fn simulate(walk: &Walk, gpu: &Gpu, walkers: &[Walker], saved: &Saved, running: 
     let stage = Stage::new(&walk.body, f64::from(walk.frame_count) * seconds);
     std::fs::create_dir_all(&running.out)?;
     let progress = progress(walk.frame_count, done, running.quiet);
+    let mut last = vec![Status::default(); walkers.len()];
     for frame in done + 1..=walk.frame_count {
         interrupt::check().context("interrupted: every frame so far is kept, go on with --resume")?;
         let start = Instant::now();
@@ -206,8 +207,10 @@ fn simulate(walk: &Walk, gpu: &Gpu, walkers: &[Walker], saved: &Saved, running: 
         let body = walk.body.at(f64::from(frame) * seconds);
         let exact = ExactDistance::new(&body);
         let mut cloths = Vec::new();
-        for (simulation, walker) in outfit.garments_mut().zip(walkers) {
+        for ((simulation, walker), last) in outfit.garments_mut().zip(walkers).zip(&mut last) {
             let status = simulation.status()?.unwrap_or_default();
+            row.add_polish(last, &status);
+            *last = status;
             let state = GarmentState::download(gpu, simulation)?;
             let normals = readback::read_vec4s(&gpu.device, &gpu.queue, &simulation.frame().normals)?;
             row.add(&walker.model, &state, &status, &exact, &body, &regions, walk.settings.fabric.thickness, texel);

@@ -3,11 +3,13 @@
 use crate::error::{FileError, Found, Place};
 use crate::fabric::{self, Problem};
 use crate::garment::read_garment;
-use crate::scene_toml::{CornerToml, FrictionToml, PinToml, RuleToml, SceneToml, SheetToml, WindToml};
+use crate::scene_toml::{CornerToml, FrictionToml, PinToml, PolishToml, RuleToml, SceneToml, SheetToml, WindToml};
 use crate::{scene_body, source, toml_text};
 use glam::{DVec2, DVec3};
 use std::path::Path;
-use toile_scene::{Body, Cloth, Fabric, Friction, Pin, Rule, Scene, Settings, Sheet, VelocityModification, Wind};
+use toile_scene::{
+    Body, Cloth, Fabric, Friction, Pin, Polish, Rule, Scene, Settings, Sheet, VelocityModification, Wind,
+};
 
 /// Frames of a scene that does not say: two seconds at 60 per second.
 const FRAMES: u32 = 120;
@@ -126,6 +128,7 @@ fn settings(toml: &SceneToml, folder: &Path) -> Result<Settings, Problem> {
     if sweeps == 0 {
         return Err(wrong("sweeps", "it must be at least 1; rule = \"none\" turns it off").into());
     }
+    let polish = toml.polish.map(|polish| convert_polish(polish, rule)).transpose()?;
     let friction = match toml.friction {
         None => default.friction,
         Some(FrictionToml::Coulomb) => Friction::Coulomb,
@@ -136,7 +139,7 @@ fn settings(toml: &SceneToml, folder: &Path) -> Result<Settings, Problem> {
     };
     let safety = toml.safety.unwrap_or(default.safety);
     Ok(Settings {
-        velocity_modification: VelocityModification { rule, sweeps },
+        velocity_modification: VelocityModification { rule, sweeps, polish },
         friction,
         reflection: part("reflection", toml.reflection.unwrap_or(default.reflection))?,
         gravity: vector("gravity", toml.gravity.unwrap_or(default.gravity.to_array()))?,
@@ -148,6 +151,22 @@ fn settings(toml: &SceneToml, folder: &Path) -> Result<Settings, Problem> {
         swept: toml.swept.unwrap_or(default.swept),
         fabric: default.fabric,
     })
+}
+
+fn convert_polish(toml: PolishToml, rule: Rule) -> Result<Polish, Found> {
+    let PolishToml { target, sweeps } = toml;
+    if !matches!(rule, Rule::Predictive | Rule::Hierarchical) {
+        return Err(wrong("polish", "it needs rule = \"hierarchical\" or \"predictive\""));
+    }
+    if !Polish::TARGETS.contains(&target) {
+        let [least, most] = [Polish::TARGETS.start(), Polish::TARGETS.end()];
+        return Err(wrong("polish.target", format!("it is {target} and must be {least} to {most}")));
+    }
+    if !Polish::SWEEPS.contains(&sweeps) {
+        let [least, most] = [Polish::SWEEPS.start(), Polish::SWEEPS.end()];
+        return Err(wrong("polish.sweeps", format!("it is {sweeps} and must be {least} to {most}")));
+    }
+    Ok(Polish { target, sweeps })
 }
 
 fn convert_wind(toml: &WindToml) -> Result<Wind, Found> {

@@ -19,6 +19,7 @@ pub(crate) struct SceneToml {
     pub reflection: Option<f64>,
     pub rule: Option<RuleToml>,
     pub sweeps: Option<u32>,
+    pub polish: Option<PolishToml>,
     pub friction: Option<FrictionToml>,
     pub fabric: Option<FabricToml>,
     #[serde(default)]
@@ -41,6 +42,14 @@ pub(crate) enum RuleToml {
     Position,
     Predictive,
     Hierarchical,
+}
+
+/// Further sweeps while an elongation is above the target.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PolishToml {
+    pub target: f64,
+    pub sweeps: u32,
 }
 
 /// `"coulomb"`, or `{ papers = { velocity_kept = …, force_removed = … } }`.

@@ -7,11 +7,14 @@ use glam::{DVec3, Vec3, Vec4};
 use std::collections::BTreeMap;
 use toile_kernels::{Binding, Interface, Resource, WORKGROUP_SIZE, structs};
 use toile_model::{Model, StepSettings};
-use toile_scene::{Friction, Rule, Wind};
+use toile_scene::{Friction, Polish, Rule, Wind};
 use wgpu::util::DeviceExt;
 
 /// Bytes from one entry of a moving uniform to the next: the alignment that every WebGPU device accepts.
 pub(crate) const MOVING_UNIFORM_STRIDE: u64 = 256;
+
+/// Bytes from one entry of `sweep_dispatches` to the next: three words for the dispatch, and one that fills the vec4.
+pub(crate) const DISPATCH_STRIDE: u64 = 16;
 
 /// Buffers by the global name that the kernels give them.
 #[derive(Debug)]
@@ -25,12 +28,13 @@ impl Buffers {
         device: &wgpu::Device,
         model: &Model,
         settings: &StepSettings,
+        plan: &Plan,
         bindings: impl Iterator<Item = &'a Binding>,
     ) -> Result<Self, GpuError> {
         let mut by_name = BTreeMap::new();
         let most = device.limits().max_storage_buffer_binding_size;
         for (name, resource) in named(bindings) {
-            let contents = contents(name, model, settings);
+            let contents = contents(name, model, settings, plan);
             let size = contents.size();
             if size > most {
                 return Err(GpuError::BufferTooLarge { name: name.to_owned(), needed: size, available: most });
@@ -69,7 +73,7 @@ impl Plan {
     pub fn buffer_sizes(&self, model: &Model, settings: &StepSettings) -> BTreeMap<String, u64> {
         let bindings: Vec<Binding> =
             self.kernels().into_iter().flat_map(|kernel| Interface::of(kernel).bindings).collect();
-        let size = |name: &str| contents(name, model, settings).size();
+        let size = |name: &str| contents(name, model, settings, self).size();
         named(bindings.iter()).into_keys().map(|name| (name.to_owned(), size(name))).collect()
     }
 }
@@ -102,6 +106,7 @@ impl Contents {
 
 fn create(device: &wgpu::Device, name: &str, resource: Resource, contents: Contents) -> wgpu::Buffer {
     let usage = match resource {
+        _ if name == "sweep_dispatches" => wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDIRECT,
         Resource::Uniform { .. } => wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
         // Positions and normals are drawn by the host and by the maps of a later garment.
         _ => {
@@ -124,7 +129,7 @@ fn create(device: &wgpu::Device, name: &str, resource: Resource, contents: Conte
 }
 
 /// What the buffer of a name holds at the start.
-fn contents(name: &str, model: &Model, settings: &StepSettings) -> Contents {
+fn contents(name: &str, model: &Model, settings: &StepSettings, plan: &Plan) -> Contents {
     let particles = u64::from(model.particle_count());
     let quads = u64::from(model.quad_count());
     match name {
@@ -192,6 +197,16 @@ fn contents(name: &str, model: &Model, settings: &StepSettings) -> Contents {
         "midpoints" => zeroed::<structs::Midpoint>(quads),
         "probes" => zeroed::<structs::Probe>(particles + quads),
         "contacts" => zeroed::<structs::Contact>(particles),
+        "polish" => {
+            let Polish { target, sweeps } = settings.polish.expect("its kernels are planned for a polish");
+            uniform(&structs::Polish { target_elongation: target as f32, sweeps })
+        }
+        "polish_state" => zeroed::<structs::PolishState>(1),
+        "sweep_workgroups" => {
+            let granted = plan.granted().map(|pass| pass.workgroups());
+            words(&granted.flat_map(|[x, y]| [x, y, 1, 0]).collect::<Vec<_>>())
+        }
+        "sweep_dispatches" => Contents::Zeros(DISPATCH_STRIDE * plan.granted().count() as u64),
         "status" => zeroed::<structs::Status>(1),
         "energy_partials" => Contents::Zeros(4 * particles.div_ceil(u64::from(WORKGROUP_SIZE))),
         other => panic!("the kernels name a buffer {other} that has no contents here"),

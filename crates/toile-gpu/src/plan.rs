@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::Range;
 use toile_kernels::{Domain, Kernel, Need, Row, Stage, TABLE, WORKGROUP_SIZE};
-use toile_model::{Maps, Model, Needs};
+use toile_model::{Maps, Model, Needs, StepSettings};
 use toile_scene::Rule;
 
 /// Workgroups along one dimension that every device can dispatch.
@@ -29,6 +29,8 @@ pub struct Pass {
     pub colour: Option<u32>,
     /// Whether a whole workgroup works on each item.
     pub workgroup_per_item: bool,
+    /// For passes that a polish must grant, where the device finds how many workgroups they get: their place in `sweep_dispatches`.
+    pub grant: Option<u32>,
 }
 
 /// What one kernel does in a step or at the end of a frame.
@@ -64,17 +66,20 @@ pub fn kernel_runs(passes: &[Pass]) -> Vec<KernelRuns> {
 
 impl Plan {
     /// The plan of a model.
-    pub fn new(model: &Model, needs: &Needs, sweeps: u32) -> Self {
+    pub fn new(model: &Model, needs: &Needs, settings: &StepSettings) -> Self {
         let rows: Vec<&Row> = TABLE.iter().filter(|row| holds(row.need, needs)).collect();
         let mut step = Vec::new();
+        let mut sweep: Vec<Pass> = Vec::new();
         for group in rows.chunk_by(|a, b| a.stage == b.stage) {
-            let repeats = match group[0].stage {
-                Stage::Step => 1,
-                Stage::Sweep => sweeps.max(1),
-                Stage::Pose | Stage::Frame | Stage::Handover | Stage::Measure => 0,
-            };
-            for _ in 0..repeats {
-                step.extend(group.iter().flat_map(|row| passes(row, model, needs)));
+            let passes: Vec<Pass> = group.iter().flat_map(|row| passes(row, model, needs)).collect();
+            match group[0].stage {
+                Stage::Step => step.extend(passes),
+                Stage::Sweep => {
+                    (0..settings.sweeps.max(1)).for_each(|_| step.extend(passes.iter().cloned()));
+                    sweep = passes;
+                }
+                Stage::Polish => step.extend(polish(&passes, &sweep, settings.polish.map_or(0, |p| p.sweeps))),
+                Stage::Pose | Stage::Frame | Stage::Handover | Stage::Measure => {}
             }
         }
         let frame =
@@ -92,12 +97,30 @@ impl Plan {
         }
         kernels
     }
+
+    /// The passes that a grant is for: a further sweep and the measurement after it.
+    pub(crate) fn granted(&self) -> impl Iterator<Item = &Pass> {
+        let all = self.step.iter().filter(|pass| pass.grant.is_some());
+        all.zip(0..).take_while(|(pass, place)| pass.grant == Some(*place)).map(|(pass, _)| pass)
+    }
+}
+
+/// The passes of a polish: measure and decide, and as often as it may sweep, a further sweep after which it measures and decides
+/// again. All but the first measurement and the decisions must be granted.
+fn polish(rows: &[Pass], sweep: &[Pass], sweeps: u32) -> Vec<Pass> {
+    let (decision, measurement) = rows.split_last().expect("a polish measures and decides");
+    let granted = sweep.iter().chain(measurement).zip(0..);
+    let mut further: Vec<Pass> = granted.map(|(pass, place)| Pass { grant: Some(place), ..pass.clone() }).collect();
+    further.push(decision.clone());
+    let mut passes = rows.to_vec();
+    (0..sweeps).for_each(|_| passes.extend(further.iter().cloned()));
+    passes
 }
 
 impl Pass {
     /// One dispatch over so many items.
     pub fn over(kernel: Kernel, count: u32) -> Self {
-        Self { kernel, items: 0..count, colour: None, workgroup_per_item: false }
+        Self { kernel, items: 0..count, colour: None, workgroup_per_item: false, grant: None }
     }
 
     /// Workgroups to dispatch along x and y.
@@ -129,6 +152,7 @@ fn holds(need: Need, needs: &Needs) -> bool {
         Need::Attachments => needs.attachments,
         Need::Strands => needs.rule == Rule::Hierarchical,
         Need::RulePosition => needs.rule == Rule::Position,
+        Need::Polish => needs.polish,
     }
 }
 
@@ -144,7 +168,7 @@ pub(crate) fn limit_colours(model: &Model, rule: Rule) -> Vec<Range<u32>> {
 
 fn passes(row: &Row, model: &Model, needs: &Needs) -> Vec<Pass> {
     let workgroup_per_item = matches!(row.domain, Domain::Hold | Domain::StrandColour);
-    let pass = |items, colour| Pass { kernel: row.kernel, items, colour, workgroup_per_item };
+    let pass = |items, colour| Pass { kernel: row.kernel, items, colour, workgroup_per_item, grant: None };
     let all = |count: u32| vec![pass(0..count, None)];
     let coloured = |colours: &[Range<u32>]| -> Vec<Pass> {
         colours.iter().cloned().zip(0..).map(|(items, colour)| pass(items, Some(colour))).collect()

@@ -1,6 +1,6 @@
 //! The solver: records the passes of a plan.
 
-use crate::buffers::{Buffers, MOVING_UNIFORM_STRIDE, uniform_bytes};
+use crate::buffers::{Buffers, DISPATCH_STRIDE, MOVING_UNIFORM_STRIDE, uniform_bytes};
 use crate::plan::limit_colours;
 use crate::status::StatusReader;
 use crate::timing::{PassTime, Timer};
@@ -59,11 +59,11 @@ impl Solver {
             Some(_) => Maps::Still,
         };
         let needs = Needs::new(model, settings, maps, colliders.sphere.is_some());
-        let plan = Plan::new(model, &needs, settings.sweeps);
+        let plan = Plan::new(model, &needs, settings);
         let programs: Vec<_> =
             plan.kernels().into_iter().map(|kernel| (kernel, Program::new(device, kernel))).collect();
         let bindings = programs.iter().flat_map(|(_, program)| &program.interface().bindings);
-        let buffers = Buffers::new(device, model, settings, bindings)?;
+        let buffers = Buffers::new(device, model, settings, &plan, bindings)?;
         let bound = |(kernel, program): (Kernel, Program)| {
             let group = program.bind(device, |binding| {
                 if let Some(map) = colliders.maps.and_then(|maps| maps.resource(&binding.name)) {
@@ -131,7 +131,7 @@ impl Solver {
             self.dispatch(&mut compute, pass, 0);
         }
         drop(compute);
-        self.status.record(encoder, status, self.step);
+        self.status.record(encoder, status, self.buffers.find("polish_state"), self.step);
     }
 
     /// Does one step pass by pass and says what each kernel cost, beside a state copy: the unit in which costs are told. For
@@ -294,8 +294,16 @@ impl Solver {
         } else {
             compute.set_bind_group(0, &bound.group, &[]);
         }
-        let [x, y] = pass.workgroups();
-        compute.dispatch_workgroups(x, y, 1);
+        match pass.grant {
+            Some(place) => {
+                let dispatches = self.buffers.get("sweep_dispatches");
+                compute.dispatch_workgroups_indirect(dispatches, DISPATCH_STRIDE * u64::from(place));
+            }
+            None => {
+                let [x, y] = pass.workgroups();
+                compute.dispatch_workgroups(x, y, 1);
+            }
+        }
     }
 
     /// Records where the sphere is in each of the coming steps.

@@ -1,6 +1,6 @@
 //! The status of past frames, read without stalling: a few small buffers that map themselves when their frame is done.
 
-use encase::StorageBuffer;
+use encase::{ShaderType, StorageBuffer};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
 use toile_kernels::structs;
@@ -29,7 +29,7 @@ pub(crate) struct StatusReader {
 
 impl StatusReader {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
-        let size = <structs::Status as encase::ShaderType>::min_size().get().next_multiple_of(16);
+        let size = polish_place() + structs::PolishState::min_size().get();
         let slot = |_| Slot {
             buffer: device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("status readback"),
@@ -43,13 +43,23 @@ impl StatusReader {
         Self { slots: (0..SLOT_COUNT).map(slot).collect(), latest: None }
     }
 
-    /// Records the copy of the status buffer after step `step`; it maps itself once the encoder's commands are done.
-    pub(crate) fn record(&mut self, encoder: &mut wgpu::CommandEncoder, status: &wgpu::Buffer, step: u64) {
+    /// Records the copy of the status buffer, and of the state of a polish if there is one, after step `step`; it maps itself once the
+    /// encoder's commands are done.
+    pub(crate) fn record(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        status: &wgpu::Buffer,
+        polish_state: Option<&wgpu::Buffer>,
+        step: u64,
+    ) {
         self.collect();
         let Some(slot) = self.slots.iter_mut().find(|s| s.state.load(Ordering::Acquire) == FREE) else { return };
         slot.step = step;
         slot.state.store(PENDING, Ordering::Release);
-        encoder.copy_buffer_to_buffer(status, 0, &slot.buffer, 0, status.size().min(slot.buffer.size()));
+        encoder.copy_buffer_to_buffer(status, 0, &slot.buffer, 0, polish_place());
+        if let Some(state) = polish_state {
+            encoder.copy_buffer_to_buffer(state, 0, &slot.buffer, polish_place(), state.size());
+        }
         let state = slot.state.clone();
         encoder.map_buffer_on_submit(&slot.buffer, wgpu::MapMode::Read, .., move |result| {
             state.store(if result.is_ok() { READY } else { FREE }, Ordering::Release);
@@ -67,13 +77,11 @@ impl StatusReader {
             if slot.state.load(Ordering::Acquire) != READY {
                 continue;
             }
-            if let Ok(view) = slot.buffer.get_mapped_range(..) {
-                let mut raw = structs::Status::default();
-                if StorageBuffer::new(view.to_vec()).read(&mut raw).is_ok()
-                    && self.latest.is_none_or(|latest| slot.step >= latest.step)
-                {
-                    self.latest = Some(decode(&raw, slot.step));
-                }
+            if let Ok(view) = slot.buffer.get_mapped_range(..)
+                && let Some(status) = decode(&view, slot.step)
+                && self.latest.is_none_or(|latest| status.step >= latest.step)
+            {
+                self.latest = Some(status);
             }
             slot.buffer.unmap();
             slot.state.store(FREE, Ordering::Release);
@@ -81,8 +89,17 @@ impl StatusReader {
     }
 }
 
-fn decode(raw: &structs::Status, step: u64) -> Status {
-    Status {
+/// Where the state of a polish lies in a slot [byte]: after the status. Without a polish it stays zero.
+fn polish_place() -> u64 {
+    structs::Status::min_size().get()
+}
+
+fn decode(slot: &[u8], step: u64) -> Option<Status> {
+    let (status, polish) = slot.split_at(polish_place() as usize);
+    let (mut raw, mut polished) = (structs::Status::default(), structs::PolishState::default());
+    StorageBuffer::new(status).read(&mut raw).ok()?;
+    StorageBuffer::new(polish).read(&mut polished).ok()?;
+    Some(Status {
         step,
         non_finite_count: raw.non_finite_count,
         first_non_finite: (raw.non_finite_count > 0).then(|| u32::MAX - raw.first_non_finite),
@@ -92,5 +109,7 @@ fn decode(raw: &structs::Status, step: u64) -> Status {
         over_long_count: raw.over_long_count,
         longest_limit: (raw.longest_limit > 0).then(|| u32::MAX - raw.longest_limit),
         seam_gap_max: f32::from_bits(raw.seam_gap_max),
-    }
+        further_sweeps: polished.further_sweeps,
+        missed_steps: polished.missed_steps,
+    })
 }

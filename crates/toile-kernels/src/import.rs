@@ -17,6 +17,7 @@ const SHARED: &[(&str, &str)] = &shared![
     "midpoint",
     "over_long",
     "point",
+    "polish",
     "probe",
     "quad",
     "reduction",

@@ -252,6 +252,28 @@ pub struct Joint {
     pub row_z: Vec4,
 }
 
+/// Further sweeps in the steps that need them. `wgsl/shared/polish.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct Polish {
+    /// Elongation that needs no further sweep [1].
+    pub target_elongation: f32,
+    /// At most so many further sweeps in a step.
+    pub sweeps: u32,
+}
+
+/// What a polish knows. `wgsl/shared/polish.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct PolishState {
+    /// Bits of the largest elongation above the target [1]; 0: none.
+    pub elongation_max: u32,
+    /// Further sweeps of the present step.
+    pub granted: u32,
+    /// Further sweeps so far.
+    pub further_sweeps: u32,
+    /// Steps so far that ended above the target.
+    pub missed_steps: u32,
+}
+
 /// What a frame reports. `wgsl/shared/status.wgsl`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
 pub struct Status {

@@ -12,6 +12,8 @@ pub enum Stage {
     /// Once per sweep: consecutive rows of this stage are repeated together as often as the settings say, so that limits, bodies and
     /// seams take turns.
     Sweep,
+    /// Before each further sweep of a polish and after the last: it repeats the rows of [`Stage::Sweep`] before it.
+    Polish,
     /// Once per frame, after its steps.
     Frame,
     /// Once, when the open model becomes the sewn one.
@@ -86,6 +88,8 @@ pub enum Need {
     Strands,
     /// Pins under the rule Hierarchical.
     Attachments,
+    /// Limits under a predictive rule, with a polish.
+    Polish,
 }
 
 /// One row of the kernel table.
@@ -179,6 +183,10 @@ kernels! {
     Collide "step" "collide" Sweep Particle Body;
     /// Seams close at a set speed; last of all, so that a seam that a tight fit holds open closes all the same.
     CloseSeams "step" "close_seams" Sweep SeamColour Seams;
+    /// Whether the coming move would stretch a spring beyond the target of a polish.
+    MeasureExcess "step" "measure_excess" Polish Limit Polish;
+    /// Further sweeps while it would, at most so many.
+    GrantSweep "step" "grant_sweep" Polish Workgroup Polish;
     /// Positions move last. W eq. 3.
     MoveParticles "step" "move_particles" Step Particle Nothing;
     /// Provot's rule, after the move. W §3.1.

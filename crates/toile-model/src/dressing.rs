@@ -172,14 +172,14 @@ impl Dressing {
 }
 
 impl StepSettings {
-    /// These settings while a garment is sewn: no gravity, no wind, no friction, and damped.
+    /// These settings while a garment is sewn: no gravity, no wind, no friction, no polish, and damped.
     pub fn sewing(&self) -> Self {
         Self { gravity: Vec3::ZERO, damping: self.damping.max(SEWING_DAMPING), ..self.easing() }
     }
 
-    /// These settings while a sewn garment eases: no wind, no friction, and damped; its labelled edges are still held.
+    /// These settings while a sewn garment eases: no wind, no friction, no polish, and damped; its labelled edges are still held.
     pub fn easing(&self) -> Self {
-        Self { friction: 0.0, ..self.indoors() }
+        Self { friction: 0.0, polish: None, ..self.indoors() }
     }
 
     /// These settings while a sewn garment comes to rest: no wind, damped, and held by the body alone.

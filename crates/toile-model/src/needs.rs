@@ -33,18 +33,25 @@ pub struct Needs {
     pub limits: bool,
     /// Pins that hold particles farther away.
     pub attachments: bool,
+    /// Further sweeps in steps that need them.
+    pub polish: bool,
 }
 
 impl Needs {
     /// What this model needs, with or without maps and sphere.
     ///
     /// # Panics
-    /// When the rule of the settings is hierarchical and that of the model is not.
+    /// When the rule of the settings is hierarchical and that of the model is not, or when there is a polish under a rule that is not
+    /// predictive.
     pub fn new(model: &Model, settings: &StepSettings, maps: Maps, sphere: bool) -> Self {
         let hierarchical = Rule::Hierarchical;
         assert!(
             settings.rule != hierarchical || model.rule == hierarchical,
             "a model has strands only when it was made for the hierarchical rule"
+        );
+        assert!(
+            settings.polish.is_none() || matches!(settings.rule, Rule::Predictive | Rule::Hierarchical),
+            "a polish measures what the coming move would do, so it needs a predictive rule"
         );
         let limits = !model.limits.is_empty();
         let rule = if limits && settings.sweeps > 0 { settings.rule } else { Rule::None };
@@ -57,6 +64,7 @@ impl Needs {
             rule,
             limits,
             attachments: rule == Rule::Hierarchical && !model.attachments.values.is_empty(),
+            polish: rule != Rule::None && settings.polish.is_some(),
         }
     }
 

@@ -21,4 +21,8 @@ pub struct Status {
     pub longest_limit: Option<u32>,
     /// Largest distance between two particles of a seam pair [m]; 0 without open seams.
     pub seam_gap_max: f32,
+    /// Further sweeps of a [`Polish`](toile_scene::Polish) so far; 0 without one.
+    pub further_sweeps: u32,
+    /// Steps so far that ended above its target although they had all their further sweeps.
+    pub missed_steps: u32,
 }

@@ -3,10 +3,10 @@
 use crate::Model;
 use crate::assemble::aim;
 use glam::Vec3;
-use toile_scene::{Friction, Rule, Settings, Wind};
+use toile_scene::{Friction, Polish, Rule, Settings, Wind};
 
-/// Eighty times the weight of the cloth: of cotton about 120 Pa, as if it were drawn with 12 N/m around a waist [m/s²].
-const PRESSING: f32 = 800.0;
+/// Twenty times the weight of the cloth: of cotton about 30 Pa, as if it were drawn with 3 N/m around a waist [m/s²].
+const PRESSING: f32 = 200.0;
 
 /// The numbers of one step, the same for every particle.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,6 +44,8 @@ pub struct StepSettings {
     pub rule: Rule,
     /// Sweeps over all limits per step.
     pub sweeps: u32,
+    /// Further sweeps in steps that need them.
+    pub polish: Option<Polish>,
     /// Part of the threshold that the limits hold [1]; the rest is for what the sweeps leave.
     pub aim: f32,
     /// Whether the whole way of a point is tested against the bodies, not its end alone.
@@ -74,6 +76,7 @@ impl StepSettings {
             hold_speed: 0.5,
             rule: settings.velocity_modification.rule,
             sweeps: settings.velocity_modification.sweeps,
+            polish: settings.velocity_modification.polish,
             aim: aim(model.rule),
             swept: settings.swept,
         }
@@ -81,12 +84,13 @@ impl StepSettings {
 }
 
 impl StepSettings {
-    /// The part of [`Self::push_speed`] that each of the sweeps has [m/s].
+    /// The part of [`Self::push_speed`] that each of the sweeps has [m/s]; further sweeps have as much each.
     pub fn push_speed_per_sweep(&self) -> f32 {
         self.push_speed / self.sweeps.max(1) as f32
     }
 
-    /// The change of normal speed by one sweep that friction counts at most [m/s]: what [`Self::pressing`] gives in a step, in equal parts.
+    /// The change of normal speed by one sweep that friction counts at most [m/s]: what [`Self::pressing`] gives in a step, in equal parts;
+    /// further sweeps count as much each.
     pub fn pressing_speed_per_sweep(&self) -> f32 {
         self.pressing * self.dt / self.sweeps.max(1) as f32
     }

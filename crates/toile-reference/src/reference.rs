@@ -1,11 +1,12 @@
 //! The life of the GPU simulation on the CPU.
 
 use crate::maps::BodyMaps;
+use crate::step::PolishState;
 use crate::{Ball, Contact, Lag, Particles, Probe, digest, frame, step};
 use glam::Vec3;
 use std::ops::Range;
 use toile_model::{Merge, Model, Status, StepSettings};
-use toile_scene::{Rule, Sphere};
+use toile_scene::{Polish, Rule, Sphere};
 
 /// What the cloth collides with. The default is nothing: then no contact kernel runs.
 #[derive(Clone, Debug, Default)]
@@ -49,6 +50,7 @@ pub struct Colliders {
 ///     hold_speed: 0.5,
 ///     rule: Rule::Predictive,
 ///     sweeps: 1,
+///     polish: None,
 ///     aim: 1.0,
 ///     swept: true,
 /// };
@@ -65,6 +67,7 @@ pub struct Reference {
     particles: Particles,
     /// Contacts of the last step, shape [particle_count]; empty without body.
     contacts: Vec<Contact>,
+    polish: PolishState,
     step: u64,
 }
 
@@ -79,12 +82,13 @@ impl Reference {
             model: model.clone(),
             settings: settings.clone(),
             colliders,
+            polish: PolishState::default(),
             step: 0,
         }
     }
 
     /// The handover: the same state in the sewn model, whose particles `merge` makes from those of this one. Contacts start
-    /// anew; the number of steps and with it the time go on.
+    /// and what a polish counts start anew; the number of steps and with it the time go on.
     pub fn sewn(self, model: &Model, settings: &StepSettings, merge: &Merge) -> Self {
         let mut sewn = Self::new(model, settings, self.colliders);
         frame::merge_particles(&self.particles, &merge.members, &mut sewn.particles);
@@ -131,13 +135,11 @@ impl Reference {
             step::hold_edges(particles, &model.holds, &model.held_particles, settings);
         }
         for _ in 0..self.settings.sweeps.max(1) {
-            self.sweep_velocities();
-            if has_body {
-                self.collide(lag);
-            }
-            let Self { model, particles, .. } = self;
-            for colour in &model.seam_colours {
-                step::close_seams(particles, part(&model.seam_pairs, colour), dt);
+            self.sweep(lag);
+        }
+        if let Some(polish) = self.polishes() {
+            while self.grants_sweep(polish) {
+                self.sweep(lag);
             }
         }
         let Self { model, settings, particles, .. } = self;
@@ -150,6 +152,30 @@ impl Reference {
             }
         }
         self.step += 1;
+    }
+
+    /// One sweep: limits, bodies and seams take their turns.
+    fn sweep(&mut self, lag: Lag) {
+        self.sweep_velocities();
+        if self.colliders.maps.is_some() || self.colliders.sphere.is_some() {
+            self.collide(lag);
+        }
+        let Self { model, settings, particles, .. } = self;
+        for colour in &model.seam_colours {
+            step::close_seams(particles, part(&model.seam_pairs, colour), settings.dt);
+        }
+    }
+
+    /// The polish, where there are limits to measure.
+    fn polishes(&self) -> Option<Polish> {
+        self.settings.polish.filter(|_| !self.model.limits.is_empty() && self.settings.sweeps > 0)
+    }
+
+    /// Measures what the coming move would do, and says whether a further sweep follows.
+    fn grants_sweep(&mut self, polish: Polish) -> bool {
+        let Self { model, settings, particles, .. } = self;
+        self.polish.elongation_max = step::measure_excess(particles, &model.limits, polish.target as f32, settings.dt);
+        step::grant_sweep(&mut self.polish, polish.sweeps)
     }
 
     /// One sweep over all limits, colour by colour; under the hierarchical rule from pins outward, then along strands.
@@ -225,6 +251,8 @@ impl Reference {
             over_long_count: limits.over_long_count,
             longest_limit: frame::longest_limit(&self.particles.positions, &self.model.limits),
             seam_gap_max: frame::seam_status(&self.particles.positions, &self.model.seam_pairs),
+            further_sweeps: self.polish.further_sweeps,
+            missed_steps: self.polish.missed_steps,
         }
     }
 

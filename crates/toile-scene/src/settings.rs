@@ -2,6 +2,7 @@
 
 use crate::Fabric;
 use glam::DVec3;
+use std::ops::RangeInclusive;
 
 /// How a scene is simulated.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,13 +89,38 @@ pub struct VelocityModification {
     pub rule: Rule,
     /// How often the rule goes over all limits in one step; after each time the cloth answers the bodies.
     pub sweeps: u32,
+    /// Further sweeps in steps that need them; `None` is none. It needs [`Rule::Predictive`] or [`Rule::Hierarchical`].
+    pub polish: Option<Polish>,
 }
 
 impl VelocityModification {
     /// A rule with the sweeps that it is made for: four of hierarchical limits, one of all others.
     pub fn new(rule: Rule) -> Self {
-        Self { rule, sweeps: if rule == Rule::Hierarchical { 4 } else { 1 } }
+        Self { rule, sweeps: if rule == Rule::Hierarchical { 4 } else { 1 }, polish: None }
     }
+}
+
+/// Further sweeps in the steps that need them, and a bound on them.
+///
+/// After the sweeps of a step, the springs are measured as the coming move would leave them. While one is stretched beyond the target,
+/// another sweep follows, at most so many; a step that then still misses the target is counted. A step that holds it moves
+/// as if there were no polish.
+///
+/// A sweep goes on until limits hold, not until the target does. Those of [`Rule::Hierarchical`] are at three fifths of
+/// the fabric's threshold, so that a target below is missed in every step where springs are taut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Polish {
+    /// Largest elongation that needs no further sweep [1], in [`Polish::TARGETS`].
+    pub target: f64,
+    /// At most so many further sweeps in a step, in [`Polish::SWEEPS`].
+    pub sweeps: u32,
+}
+
+impl Polish {
+    /// Targets that make sense [1].
+    pub const TARGETS: RangeInclusive<f64> = 0.001..=0.5;
+    /// Further sweeps that make sense.
+    pub const SWEEPS: RangeInclusive<u32> = 1..=64;
 }
 
 /// How the ends of an over-long spring change.

@@ -149,6 +149,8 @@ impl Simulation {
             elongation_max: status.elongation_max,
             longest_limit: status.longest_limit,
             over_long_count: status.over_long_count,
+            further_sweeps: status.further_sweeps,
+            missed_steps: status.missed_steps,
         }))
     }
 

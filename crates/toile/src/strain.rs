@@ -11,4 +11,8 @@ pub struct Strain {
     pub longest_limit: Option<u32>,
     /// Number of springs whose elongation is above the threshold along them.
     pub over_long_count: u32,
+    /// Further sweeps of a [`Polish`](toile_scene::Polish) so far; 0 without one.
+    pub further_sweeps: u32,
+    /// Steps so far that ended above its target although they had all their further sweeps.
+    pub missed_steps: u32,
 }

@@ -4,7 +4,7 @@ use crate::args::Outfit;
 use anyhow::{Context, Result};
 use std::path::Path;
 use toile::files::{self, BodyOptions, SceneFile};
-use toile::scene::{Body, Cloth, Fabric, Garment, MovingMesh, Scene, Settings};
+use toile::scene::{Body, Cloth, Fabric, Garment, MovingMesh, Scene, Settings, VelocityModification};
 
 /// The built-in body and the pose it is dressed in.
 const BODY: &[u8] = include_bytes!("../../../../fixtures/bodies/walking_woman.glb");
@@ -56,7 +56,8 @@ pub fn read_garments(outfit: &Outfit) -> Result<Vec<Garment>> {
 /// How the outfit is simulated.
 pub fn settings(outfit: &Outfit) -> Result<Settings> {
     let default = Settings::new(fabric(&outfit.fabric)?);
-    Ok(Settings { spacing: outfit.spacing, texel: outfit.texel, ..default })
+    let velocity_modification = VelocityModification { polish: outfit.polish, ..default.velocity_modification };
+    Ok(Settings { velocity_modification, spacing: outfit.spacing, texel: outfit.texel, ..default })
 }
 
 fn options(outfit: &Outfit) -> BodyOptions {

@@ -131,7 +131,7 @@ impl ClothPlan {
         needs: &Needs,
         map_bytes: u64,
     ) -> Self {
-        let plan = Plan::new(model, needs, settings.sweeps);
+        let plan = Plan::new(model, needs, settings);
         let mut buffers = plan.buffer_sizes(model, settings);
         buffers.insert("indices".to_owned(), 12 * model.triangles().len() as u64);
         let bytes = buffers.values().sum();

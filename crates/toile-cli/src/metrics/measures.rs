@@ -27,6 +27,10 @@ pub struct Measures {
     pub elongation_p99: f64,
     /// Largest elongation at the end of any frame [1].
     pub elongation_max_over_run: f64,
+    /// Further sweeps of the polish while draping, or in the run.
+    pub further_sweeps: u32,
+    /// Steps then that ended above its target.
+    pub missed_steps: u32,
     /// Steps of a frame.
     pub steps_per_frame: u32,
     /// Deepest particle below the surface of the body [mm], negative when all are outside; null without a body.
@@ -86,6 +90,8 @@ impl Measures {
             elongation_max,
             elongation_p99,
             elongation_max_over_run: f64::from(worn.log.elongation_max),
+            further_sweeps: worn.status.further_sweeps,
+            missed_steps: worn.status.missed_steps,
             steps_per_frame: worn.settings.steps_per_frame,
             penetration_max_mm: contact.map(|contact| 1e3 * contact.penetration_max),
             penetration_p99_mm: contact.map(|contact| 1e3 * contact.penetration_p99),
@@ -118,6 +124,8 @@ impl Measures {
             elongation_max: self.elongation_max.max(other.elongation_max),
             elongation_p99: self.elongation_p99.max(other.elongation_p99),
             elongation_max_over_run: self.elongation_max_over_run.max(other.elongation_max_over_run),
+            further_sweeps: self.further_sweeps + other.further_sweeps,
+            missed_steps: self.missed_steps + other.missed_steps,
             steps_per_frame: self.steps_per_frame.max(other.steps_per_frame),
             penetration_max_mm: worse(self.penetration_max_mm, other.penetration_max_mm),
             penetration_p99_mm: worse(self.penetration_p99_mm, other.penetration_p99_mm),

@@ -23,6 +23,8 @@ pub struct WalkMetrics {
     frame_count: usize,
     elongation_max: f64,
     elongation_p99_worst: f64,
+    further_sweeps: u32,
+    missed_steps: u32,
     penetration_max_mm: f64,
     penetration_p99_worst_mm: f64,
     false_contact_fraction_mean: f64,
@@ -52,6 +54,10 @@ pub struct FrameRow {
     pub longest_region: Option<String>,
     /// Number of springs whose elongation is above the threshold along them.
     pub over_long_count: u32,
+    /// Further sweeps of the polish in the steps of the frame.
+    pub further_sweeps: u32,
+    /// Steps of the frame, of all garments, that ended above its target.
+    pub missed_steps: u32,
     /// 99th percentile of it, of the garment where it is largest [1].
     pub elongation_p99: f64,
     /// Deepest particle below the exact surface of the body [mm], negative when all are outside.
@@ -142,6 +148,14 @@ impl FrameRow {
     }
 }
 
+impl FrameRow {
+    /// Adds what the polish of a garment did from one status to the next.
+    pub fn add_polish(&mut self, before: &Status, after: &Status) {
+        self.further_sweeps += after.further_sweeps - before.further_sweeps;
+        self.missed_steps += after.missed_steps - before.missed_steps;
+    }
+}
+
 impl WalkMetrics {
     /// The metrics of a walk from its rows, and the part of a step that goes to the bodies [1].
     pub fn new(
@@ -173,6 +187,8 @@ impl WalkMetrics {
             frame_count: frames.len(),
             elongation_max: most(|row| row.elongation_max),
             elongation_p99_worst: most(|row| row.elongation_p99),
+            further_sweeps: frames.iter().map(|row| row.further_sweeps).sum(),
+            missed_steps: frames.iter().map(|row| row.missed_steps).sum(),
             penetration_max_mm: most(|row| row.penetration_max_mm),
             penetration_p99_worst_mm: most(|row| row.penetration_p99_mm),
             false_contact_fraction_mean: fractions / frames.len().max(1) as f64,

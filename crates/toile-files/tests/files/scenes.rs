@@ -5,7 +5,7 @@ use glam::DVec3;
 use std::fs;
 use std::path::Path;
 use toile_files::{SceneFile, read_fabric, read_scene};
-use toile_scene::{Body, Cloth, Fabric, Friction, Rule, Sheet, SphereMotion, Threshold, Wind};
+use toile_scene::{Body, Cloth, Fabric, Friction, Polish, Rule, Sheet, SphereMotion, Threshold, Wind};
 
 fn overrides(pairs: &[(&str, &str)]) -> Vec<(String, String)> {
     pairs.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect()
@@ -93,6 +93,18 @@ fn a_fabric_is_named_or_differs_from_a_named_one() {
 }
 
 #[test]
+fn a_polish_has_a_target_and_a_bound_under_a_predictive_rule() {
+    let polish = |file: SceneFile| file.scene.settings.velocity_modification.polish;
+    assert_eq!(polish(hang(&[])), None);
+    let expected = Some(Polish { target: 0.02, sweeps: 8 });
+    assert_eq!(polish(hang(&[("polish", "{ target = 0.02, sweeps = 8 }"), ("rule", "predictive")])), expected);
+    let path = fixture("scenes/hang.toml");
+    let average = overrides(&[("rule", "average"), ("polish", "{ target = 0.02, sweeps = 8 }")]);
+    let error = read_scene(&path, &average).expect_err("the rule is not predictive").to_string();
+    assert!(error.ends_with("key \"polish\": it needs rule = \"hierarchical\" or \"predictive\""), "{error}");
+}
+
+#[test]
 fn wrong_overrides_name_the_key_and_what_there_is() {
     let cases = [
         ("speed", "1"),
@@ -115,6 +127,12 @@ fn wrong_overrides_name_the_key_and_what_there_is() {
         ("sheet.0.pins", "[\"middle\"]"),
         ("frames", "0"),
         ("sweeps", "0"),
+        ("polish", "{ target = 0.05 }"),
+        ("polish", "{ target = 0.0005, sweeps = 4 }"),
+        ("polish", "{ target = nan, sweeps = 4 }"),
+        ("polish", "{ target = 0.05, sweeps = 0 }"),
+        ("polish", "{ target = 0.05, sweeps = 65 }"),
+        ("polish", "{ target = 0.05, sweeps = -1 }"),
         ("safety", "1.5"),
         ("gravity", "[0, inf, 0]"),
         ("wind", "{ velocity = [1, 0] }"),
@@ -135,7 +153,7 @@ fn wrong_overrides_name_the_key_and_what_there_is() {
         })
         .collect();
     insta::assert_snapshot!(messages.join("\n"), @r#"
-    hang.toml, key "speed": unknown field `speed`, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `wind`, `spacing`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`
+    hang.toml, key "speed": unknown field `speed`, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `wind`, `spacing`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `polish`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`
     hang.toml, key "fabric": unknown field `colour`, expected one of `base`, `name`, `areal_density`, `structural_stiffness`, `shear_stiffness`, `bend_stiffness`, `bending_rigidity`, `damping`, `thickness`, `friction`, `threshold`
     hang.toml, key "n": it is 1 and must be 2 to 8192
     hang.toml, key "n": it is 100000 and must be 2 to 8192
@@ -155,6 +173,12 @@ fn wrong_overrides_name_the_key_and_what_there_is() {
     hang.toml, key "sheet.0.pins": a pin is [column, row], "top_left", "top_right", "bottom_left" or "bottom_right"
     hang.toml, key "frames": it must be at least 1
     hang.toml, key "sweeps": it must be at least 1; rule = "none" turns it off
+    hang.toml, key "polish": missing field `sweeps`
+    hang.toml, key "polish.target": it is 0.0005 and must be 0.001 to 0.5
+    hang.toml, key "polish.target": it is NaN and must be 0.001 to 0.5
+    hang.toml, key "polish.sweeps": it is 0 and must be 1 to 64
+    hang.toml, key "polish.sweeps": it is 65 and must be 1 to 64
+    hang.toml, key "polish": invalid value: integer `-1`, expected u32
     hang.toml, key "safety": it is 1.5 and must be 0 to 1
     hang.toml, key "gravity": it must be three finite numbers
     hang.toml, key "wind": invalid length 2, expected an array of length 3
@@ -164,7 +188,7 @@ fn wrong_overrides_name_the_key_and_what_there_is() {
     hang.toml, key "wind.drag": it is -1 and must be 0 or more
     hang.toml, key "wind.lift": it is inf and must be 0 or more
     hang.toml, key "name.first": invalid type: map, expected a string
-    hang.toml, key "": unknown field ``, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `wind`, `spacing`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`
+    hang.toml, key "": unknown field ``, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `wind`, `spacing`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `polish`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`
     "#);
 }
 

@@ -28,7 +28,10 @@ fn curtain(rule: Rule) -> (Model, StepSettings) {
         threshold: Threshold::even(if rule == Rule::Hierarchical { 0.05 } else { 0.03 }),
     };
     let sweeps = if rule == Rule::Hierarchical { 4 } else { 16 };
-    let settings = Settings { velocity_modification: VelocityModification { rule, sweeps }, ..Settings::new(fabric) };
+    let settings = Settings {
+        velocity_modification: VelocityModification { sweeps, ..VelocityModification::new(rule) },
+        ..Settings::new(fabric)
+    };
     let sheet = Sheet {
         name: "curtain".to_owned(),
         columns: N,

@@ -78,7 +78,7 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
                 Cell::text(name),
                 count,
                 Cell::number(cost.milliseconds()),
-                Cell::number(cost.copies()),
+                Cell::number_or_missing(cost.copies()),
                 Cell::number(cost.state_copy),
                 Cell::number(1e6 * cost.milliseconds() / particles),
             ]);

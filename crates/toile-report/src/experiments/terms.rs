@@ -51,8 +51,8 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
         table.push(vec![
             Cell::text(term.name()),
             Cell::text(term.scene().name()),
-            Cell::number(with.copies),
-            Cell::number(without.copies),
+            Cell::number_or_missing(with.copies),
+            Cell::number_or_missing(without.copies),
             Cell::number(1e3 * moved.rms),
             Cell::text(term.purpose()),
             Cell::number(term.measure(with)),

@@ -79,6 +79,15 @@ pub fn answer(kernel: Kernel, input: &mut Input) {
             let probes = step::Probes { particles: particle_probes, quads: quad_probes };
             input.contacts = step::collide(particles, &before.particle_quads, &before.midpoints, probes, settings);
         }
+        Kernel::MeasureExcess => {
+            let target = before.polish().target as f32;
+            input.polish_state.elongation_max = step::measure_excess(particles, &before.limits, target, dt);
+        }
+        Kernel::GrantSweep => {
+            let granted = step::grant_sweep(&mut input.polish_state, before.polish().sweeps);
+            let nothing = vec![[0; 4]; before.sweep_workgroups.len()];
+            input.sweep_dispatches = if granted { before.sweep_workgroups } else { nothing };
+        }
         Kernel::MoveParticles => step::move_particles(&mut particles.positions, &before.particles.velocities, dt),
         Kernel::ParticleNormals => {
             input.normals = frame::particle_normals(&particles.positions, &before.quads, &before.particle_quads);

@@ -7,8 +7,9 @@ use glam::{DVec3, Vec3, Vec4};
 use std::ops::Range;
 use toile::gpu::BodyMaps;
 use toile::model::{Attachment, Csr, Hold, Limit, Link, Model, SeamPair, StepSettings, Strand};
-use toile::scene::{Friction, Pose, Skin, Wind};
+use toile::scene::{Friction, Polish, Pose, Skin, Wind};
 use toile_kernels::structs;
+use toile_reference::step::PolishState;
 use toile_reference::{Ball, Contact, Lag, Midpoints, Particles, Probe};
 
 /// Everything a kernel may read or write.
@@ -64,6 +65,12 @@ pub struct Input {
     pub normals: Vec<Vec3>,
     /// Energies of groups [J].
     pub energy_partials: Vec<f32>,
+    /// What the polish knows.
+    pub polish_state: PolishState,
+    /// Workgroups of the passes that a grant is for.
+    pub sweep_workgroups: Vec<[u32; 4]>,
+    /// Those that they get.
+    pub sweep_dispatches: Vec<[u32; 4]>,
     /// What the frame reports.
     pub status: structs::Status,
     /// The sphere.
@@ -144,6 +151,11 @@ impl Input {
     /// The morph targets of the body.
     pub fn morphs(&self) -> &toile::scene::Morphs {
         self.skin.morphs.as_ref().expect("the seeded body has morph targets")
+    }
+
+    /// The polish of the settings.
+    pub fn polish(&self) -> Polish {
+        self.settings.polish.expect("the input has a polish")
     }
 
     fn step_params(&self) -> structs::StepParams {
@@ -294,6 +306,21 @@ impl Inputs for Input {
                 padding: 0.0,
             })),
             "energy_partials" => bytemuck::cast_slice(&self.energy_partials).to_vec(),
+            "polish" => {
+                let Polish { target, sweeps } = self.polish();
+                uniform(&structs::Polish { target_elongation: target as f32, sweeps })
+            }
+            "polish_state" => array(
+                [structs::PolishState {
+                    elongation_max: self.polish_state.elongation_max.to_bits(),
+                    granted: self.polish_state.granted,
+                    further_sweeps: self.polish_state.further_sweeps,
+                    missed_steps: self.polish_state.missed_steps,
+                }]
+                .into_iter(),
+            ),
+            "sweep_workgroups" => bytemuck::cast_slice(&self.sweep_workgroups).to_vec(),
+            "sweep_dispatches" => bytemuck::cast_slice(&self.sweep_dispatches).to_vec(),
             "status" => array([self.status].into_iter()),
             other => panic!("the kernels name a buffer {other} that the input does not know"),
         }

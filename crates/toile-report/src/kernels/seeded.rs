@@ -6,8 +6,9 @@ use crate::{Gpu, Layers, Random};
 use glam::{DVec3, Vec3, Vec4, dvec3, vec3};
 use toile::gpu::{GpuError, Surface};
 use toile::model::{Attachment, Csr, Hold, Limit, Link, MapFrame, Model, NO_CORNER, SeamPair, StepSettings, Strand};
-use toile::scene::{Displacement, Fabric, Friction, Influence, Mesh, Morphs, Pose, Settings, Skin, Wind};
+use toile::scene::{Displacement, Fabric, Friction, Influence, Mesh, Morphs, Polish, Pose, Settings, Skin, Wind};
 use toile_kernels::{Domain, Kernel, TABLE};
+use toile_reference::step::PolishState;
 use toile_reference::{Ball, Contact, Lag, Midpoints, Particles, Probe, frame};
 
 /// What the numbers of a step are: together these lead into every branch that the settings decide.
@@ -79,7 +80,11 @@ impl Seeds {
         let (skin, pose, body) = body(random, if domain == Domain::Vertex { items } else { 1 });
         let mut input = Input {
             // Holds and strands take a whole workgroup.
-            invocations: if matches!(domain, Domain::Hold | Domain::StrandColour) { 64 * items } else { items },
+            invocations: match domain {
+                Domain::Hold | Domain::StrandColour => 64 * items,
+                Domain::Workgroup => 64,
+                _ => items,
+            },
             ball: Ball {
                 centre: vec3(0.1, 0.0, -0.05),
                 radius: 0.35,
@@ -115,6 +120,9 @@ impl Seeds {
             contacts,
             normals: vec![Vec3::ZERO; counts.particles as usize],
             energy_partials: (0..counts.partials).map(|_| random.between(0.0, 1e-3)).collect(),
+            polish_state: polish_state(kernel, variant),
+            sweep_workgroups: (0..counts.partials).map(|k| [1 + k % 7, 1 + k % 3, 1, 0]).collect(),
+            sweep_dispatches: vec![[9; 4]; counts.partials as usize],
             status: Default::default(),
             settings,
             particles,
@@ -128,6 +136,10 @@ impl Seeds {
         if kernel == Kernel::LongestLimit {
             let status = frame::limit_status(&input.particles.positions, &input.limits, input.settings.aim);
             input.status.elongation_max = status.elongation_max.to_bits();
+        }
+        if kernel == Kernel::MeasureExcess {
+            // An infinite elongation would be the largest, whatever the kernel does.
+            input.particles.velocities.iter_mut().filter(|v| !v.is_finite()).for_each(|v| *v = Vec3::ZERO);
         }
         carry_by_the_wind(&mut input);
         input
@@ -153,6 +165,17 @@ fn counts(domain: Domain, items: u32) -> Counts {
     }
 }
 
+/// Before a decision: a spring above the target in a step that may have more sweeps, in one that may not, and none.
+fn polish_state(kernel: Kernel, variant: Variant) -> PolishState {
+    let counted = PolishState { further_sweeps: 11, missed_steps: 5, ..PolishState::default() };
+    match (kernel, variant) {
+        (Kernel::GrantSweep, Variant::Coulomb) => PolishState { elongation_max: 0.2, granted: 2, ..counted },
+        (Kernel::GrantSweep, Variant::Papers) => PolishState { elongation_max: 0.2, granted: 3, ..counted },
+        (Kernel::GrantSweep, Variant::Weightless) => PolishState { granted: 2, ..counted },
+        _ => counted,
+    }
+}
+
 fn step_settings(variant: Variant) -> StepSettings {
     let base =
         StepSettings::new(&Settings::new(Fabric::preset("cotton").expect("cotton is a preset")), &Model::default());
@@ -163,6 +186,7 @@ fn step_settings(variant: Variant) -> StepSettings {
         push_speed: 1.5,
         pressing: 200.0,
         sweeps: 1,
+        polish: Some(Polish { target: 0.1, sweeps: 3 }),
         aim: 0.6,
         contact_margin: 1e-3,
         friction: 0.8,

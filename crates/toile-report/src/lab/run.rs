@@ -176,9 +176,9 @@ impl StepCost {
         self.kernels.iter().map(|(_, _, milliseconds)| milliseconds).sum()
     }
 
-    /// Cost of a step [state copies].
-    pub fn copies(&self) -> f64 {
-        self.milliseconds() / self.state_copy
+    /// Cost of a step [state copies]; `None` when the clock was too coarse for a copy.
+    pub fn copies(&self) -> Option<f64> {
+        (self.state_copy > 0.0).then(|| self.milliseconds() / self.state_copy)
     }
 }
 

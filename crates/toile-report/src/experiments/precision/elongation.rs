@@ -35,13 +35,14 @@ pub struct Limited {
     /// Cost of a frame [ms].
     pub milliseconds: f64,
     /// Cost of a frame [state copies].
-    pub copies: f64,
+    pub copies: Option<f64>,
 }
 
 /// Lets the sheet swing down on two corners for some frames.
 pub fn limited(lab: &Lab, limiting: Limiting, frames: u32) -> Result<Limited, LabError> {
     let (sheet, mut settings) = hanging_sheet(limiting.n);
-    settings.velocity_modification = VelocityModification { rule: limiting.rule, sweeps: limiting.sweeps };
+    settings.velocity_modification =
+        VelocityModification { sweeps: limiting.sweeps, ..VelocityModification::new(limiting.rule) };
     let model = Model::from_sheet(&sheet, &settings);
     let mut step = StepSettings::new(&settings, &model);
     step.dt /= limiting.step_division as f32;
@@ -64,7 +65,7 @@ pub fn limited(lab: &Lab, limiting: Limiting, frames: u32) -> Result<Limited, La
         elongation_max,
         elongation_p99: elongations[elongations.len() * 99 / 100],
         milliseconds: steps * cost.milliseconds(),
-        copies: steps * cost.copies(),
+        copies: cost.copies().map(|copies| steps * copies),
     })
 }
 
@@ -100,7 +101,8 @@ pub(super) fn blocks(lab: &mut Lab, progress: [f64; 2]) -> Result<Vec<Block>, La
         lab.say(share, &format!("elongation, {name}, n = {}", limiting.n))?;
         let limited = limited(lab, *limiting, frames)?;
         let excess = limited.elongation_max - threshold;
-        curves.entry(*rule).or_default().push([limited.copies, excess.max(EXCESS_MIN)]);
+        let point = limited.copies.map(|copies| [copies, excess.max(EXCESS_MIN)]);
+        curves.entry(*rule).or_default().extend(point);
         table.push(vec![
             Cell::text(name),
             Cell::Count(limiting.n.into()),
@@ -109,7 +111,7 @@ pub(super) fn blocks(lab: &mut Lab, progress: [f64; 2]) -> Result<Vec<Block>, La
             Cell::number(1e2 * excess.max(0.0)),
             Cell::number(1e2 * limited.elongation_p99),
             Cell::number(limited.milliseconds),
-            Cell::number(limited.copies),
+            Cell::number_or_missing(limited.copies),
         ]);
     }
     let series = curves.into_iter().map(|(rule, points)| Series::new(super::RULES[rule].0, SeriesStyle::Marks, points));

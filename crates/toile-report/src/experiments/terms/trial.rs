@@ -41,7 +41,7 @@ pub struct Outcome {
     /// Largest elongation at the end of any frame [1].
     pub elongation_max: f64,
     /// Cost of a step [state copies].
-    pub copies: f64,
+    pub copies: Option<f64>,
 }
 
 /// Runs a trial with n × n particles for some frames.

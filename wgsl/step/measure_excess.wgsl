@@ -1,0 +1,25 @@
+// The largest elongation above the target of a polish that the coming move would give a structural or shear spring.
+#import shared/item
+#import shared/step_params
+#import shared/limit
+#import shared/polish
+
+@group(0) @binding(3) var<storage, read> limits: array<Limit>;
+@group(0) @binding(4) var<storage, read> positions: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> velocities: array<vec4<f32>>;
+
+@compute @workgroup_size(64)
+fn measure_excess(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
+    let i = item_index(id, groups);
+    if i >= step.limit_count {
+        return;
+    }
+    let limit = limits[i];
+    let difference = positions[limit.second].xyz - positions[limit.first].xyz;
+    let predicted = difference + (velocities[limit.second].xyz - velocities[limit.first].xyz) * step.dt;
+    let elongation = length(predicted) / limit.rest_length - 1.0;
+    // Few springs are above it, so few wait for the one word.
+    if elongation > polish.target_elongation {
+        atomicMax(&polish_state.elongation_max, bitcast<u32>(elongation));
+    }
+}
