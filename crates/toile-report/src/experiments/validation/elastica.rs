@@ -33,7 +33,8 @@ pub const WEIGHT: f64 = 0.2 * 9.81;
 /// When the step of the strip does not carry its rigidity.
 pub fn cantilever_tip(flexion: Flexion, cells: u32) -> f64 {
     let mut settings = settings(Rule::None);
-    settings.fabric.structural_stiffness = 1500.0;
+    // The push of a rigidity resists like a stiffness that grows with the square of the cells; links that are softer give a step that is too long.
+    settings.fabric.structural_stiffness = 1500.0 * (f64::from(cells) / 16.0).powi(2).max(1.0);
     settings.fabric.shear_stiffness = 300.0;
     (settings.fabric.bend_stiffness, settings.fabric.bending_rigidity) = match flexion {
         Flexion::Rigidity(rigidity) => (150.0, rigidity),
