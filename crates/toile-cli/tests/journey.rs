@@ -467,3 +467,18 @@ fn a_walk_ends_in_the_same_drape_at_any_frame_rate() {
     let most = distances.iter().copied().fold(0.0, f64::max);
     assert!(mean > 0.0 && mean < 0.003 && most < 0.01, "{mean} m apart on average, at most {most} m");
 }
+
+#[test]
+fn a_report_is_three_files_and_can_be_compared() {
+    let journey = Journey::new();
+    let output = journey.run(&["report", "--quick", "--only", "parity", "--out", "r"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(journey.names("r"), ["report-parity-2.svg", "report.html", "report.json", "report.md"]);
+    let page = fs::read_to_string(journey.folder.path().join("r/report.html")).expect("the page");
+    assert!(page.contains("GPU against reference") && page.contains("spring_forces") && !page.contains("src=\"http"));
+    let file = "r/report.json";
+    good(journey.run(&["report", "--compare", file, file, "--out", "c", "--json"]));
+    assert!(journey.names("c").contains(&"comparison.html".to_owned()), "{:?}", journey.names("c"));
+    fs::write(journey.folder.path().join("broken.json"), "{").expect("written");
+    assert!(refused(journey.run(&["report", "--compare", file, "broken.json"])).contains("broken.json"));
+}

@@ -17,15 +17,18 @@ use toile_report::{EXPERIMENTS, Experiment, Lab, LabError, Scale};
 /// Runs the experiments and writes the report, or puts two reports side by side.
 pub fn run(arguments: &ReportOf) -> Result<()> {
     output::check(&arguments.out)?;
-    let (page, json, stem) = match arguments.compare.as_slice() {
+    let (page, json, stem, end) = match arguments.compare.as_slice() {
         [a, b] => {
             let page = page::compare(&read(a)?, &read(b)?);
             let json = serde_json::to_string_pretty(&page)?;
-            (page, json, "comparison")
+            (page, json, "comparison", Ok(()))
         }
         _ => {
-            let report = measure(arguments)?;
-            (Page::from(&report), page::json(&report), "report")
+            let (report, end) = measure(arguments)?;
+            if report.sections.is_empty() {
+                return end;
+            }
+            (Page::from(&report), page::json(&report), "report", end)
         }
     };
     output::write_whole(&arguments.out, |folder| write(folder, &page, &json, stem))?;
@@ -34,7 +37,7 @@ pub fn run(arguments: &ReportOf) -> Result<()> {
     } else if !arguments.quiet {
         print(&format!("wrote {}", arguments.out.join(format!("{stem}.html")).display()))?;
     }
-    Ok(())
+    end
 }
 
 fn read(path: &PathBuf) -> Result<Report> {
@@ -53,7 +56,8 @@ fn write(folder: &Path, page: &Page, json: &str, stem: &str) -> Result<()> {
     Ok(())
 }
 
-fn measure(arguments: &ReportOf) -> Result<Report> {
+/// The report of the experiments, and how they ended: an hour of measuring is not lost to the last of them, or to ctrl-c.
+fn measure(arguments: &ReportOf) -> Result<(Report, Result<()>)> {
     let wanted = |experiment: &&Experiment| {
         arguments.only.is_empty() || arguments.only.iter().any(|name| name == experiment.name)
     };
@@ -63,16 +67,23 @@ fn measure(arguments: &ReportOf) -> Result<Report> {
     let mut lab = Lab::new(gpu.device, gpu.queue, gpu.name, scale, arguments.seed);
     let clock = Clock::new(&experiments, scale, arguments.quiet || arguments.json);
     let mut sections = Vec::new();
+    let mut end = Ok(());
     for (index, experiment) in experiments.iter().enumerate() {
         lab.progress = clock.listener(index);
-        sections.push((experiment.run)(&mut lab).map_err(|error| match error {
-            LabError::Interrupted => Interrupted.into(),
-            error => anyhow::Error::from(error).context(format!("the experiment {} failed", experiment.name)),
-        })?);
+        match (experiment.run)(&mut lab) {
+            Ok(section) => sections.push(section),
+            Err(error) => {
+                end = Err(match error {
+                    LabError::Interrupted => Interrupted.into(),
+                    error => anyhow::Error::from(error).context(format!("the experiment {} failed", experiment.name)),
+                });
+                break;
+            }
+        }
     }
     clock.bar.finish_and_clear();
     let Lab { adapter, seed, .. } = lab;
-    Ok(Report { adapter, version: env!("CARGO_PKG_VERSION").to_owned(), scale, seed, sections })
+    Ok((Report { adapter, version: env!("CARGO_PKG_VERSION").to_owned(), scale, seed, sections }, end))
 }
 
 /// How long the experiments have run, and how long they will.
