@@ -19,3 +19,8 @@ pub fn listen() -> Result<()> {
 pub fn check() -> Result<(), Interrupted> {
     if REQUESTED.load(Ordering::Relaxed) { Err(Interrupted) } else { Ok(()) }
 }
+
+/// Forgets that the user pressed ctrl-c: the run has ended, and what it did is about to be written.
+pub fn forget() {
+    REQUESTED.store(false, Ordering::Relaxed);
+}

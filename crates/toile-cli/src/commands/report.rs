@@ -37,7 +37,7 @@ pub fn run(arguments: &ReportOf) -> Result<()> {
     } else if !arguments.quiet {
         print(&format!("wrote {}", arguments.out.join(format!("{stem}.html")).display()))?;
     }
-    end
+    end.with_context(|| format!("ended early: what was finished is in {}", arguments.out.display()))
 }
 
 fn read(path: &PathBuf) -> Result<Report> {
@@ -81,6 +81,7 @@ fn measure(arguments: &ReportOf) -> Result<(Report, Result<()>)> {
             }
         }
     }
+    interrupt::forget();
     clock.bar.finish_and_clear();
     let Lab { adapter, seed, .. } = lab;
     Ok((Report { adapter, version: env!("CARGO_PKG_VERSION").to_owned(), scale, seed, sections }, end))
