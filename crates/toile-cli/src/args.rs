@@ -32,7 +32,7 @@ pub enum Command {
     Rules(Rules),
     /// Print the passes that a scene gets, with dispatches per step and bytes.
     Plan(PlanOf),
-    /// Measure speed against error in every way there is and write the report: about an hour, or five minutes with --quick.
+    /// Measure speed against error in every way there is and write the report: about a quarter of an hour, or three minutes with --quick.
     Report(ReportOf),
     /// List the adapters that wgpu finds.
     Adapters(Adapters),

@@ -23,7 +23,7 @@ use thiserror::Error;
 pub enum Scale {
     /// All experiments in five minutes on two cores.
     Quick,
-    /// All experiments in about an hour.
+    /// All experiments in about a quarter of an hour.
     Full,
 }
 

@@ -7,7 +7,7 @@ use toile::gpu::GpuError;
 use toile::scene::{Rule, VelocityModification};
 
 /// The row of the table.
-pub const EXPERIMENT: Experiment = Experiment { name: "cost", title: "Cost against size", minutes: [0.2, 6.0], run };
+pub const EXPERIMENT: Experiment = Experiment { name: "cost", title: "Cost against size", minutes: [0.1, 1.0], run };
 
 /// The rules that are compared: the springs alone, and the default.
 const RULES: [(&str, Rule); 2] = [("none", Rule::None), ("hierarchical", Rule::Hierarchical)];

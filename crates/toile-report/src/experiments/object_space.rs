@@ -17,7 +17,7 @@ use toile_reference::{ExactDistance, ObjectSpace, step};
 
 /// The row of the table.
 pub const EXPERIMENT: Experiment =
-    Experiment { name: "object_space", title: "Image space against object space", minutes: [0.3, 3.0], run };
+    Experiment { name: "object_space", title: "Image space against object space", minutes: [0.2, 0.9], run };
 
 /// Mean speed below which the cloth counts as at rest [m/s].
 const REST_SPEED: f64 = 0.03;

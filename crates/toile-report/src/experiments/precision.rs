@@ -16,7 +16,7 @@ use toile::scene::Rule;
 
 /// The row of the table.
 pub const EXPERIMENT: Experiment =
-    Experiment { name: "precision", title: "Work-precision: which error costs how much", minutes: [0.9, 18.0], run };
+    Experiment { name: "precision", title: "Work-precision: which error costs how much", minutes: [0.5, 4.5], run };
 
 /// Every rule of the velocity modification.
 const RULES: [(&str, Rule); 7] = [

@@ -9,7 +9,7 @@ use toile::scene::{Rule, SphereMotion, VelocityModification};
 use toile_reference::{Colliders, Reference};
 
 /// The row of the table.
-pub const EXPERIMENT: Experiment = Experiment { name: "stability", title: "Stability atlas", minutes: [0.2, 2.0], run };
+pub const EXPERIMENT: Experiment = Experiment { name: "stability", title: "Stability atlas", minutes: [0.1, 0.7], run };
 
 /// Smallest and largest step that is tried, in units of sqrt(m/K).
 const REACH: [f64; 2] = [0.1, 12.8];

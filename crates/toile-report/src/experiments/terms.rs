@@ -12,7 +12,7 @@ use crate::{Experiment, Lab, LabError};
 
 /// The row of the table.
 pub const EXPERIMENT: Experiment =
-    Experiment { name: "terms", title: "What each term costs and buys", minutes: [0.6, 7.0], run };
+    Experiment { name: "terms", title: "What each term costs and buys", minutes: [0.2, 1.2], run };
 
 fn run(lab: &mut Lab) -> Result<Section, LabError> {
     let (n, frames) = lab.pick((13, 18), (33, 90));
