@@ -8,10 +8,9 @@
 mod support;
 
 use support::Bench;
-use toile::model::{Model, StepSettings};
-use toile::scene::{Body, Cloth};
+use toile::model::StepSettings;
 use toile::{Colliders, Simulation};
-use toile_workspace::scene;
+use toile_workspace::{scene, sheet_model, sphere};
 
 /// Steps that are measured.
 const STEPS: usize = 20;
@@ -28,15 +27,11 @@ fn main() {
 
 fn measure(bench: &Bench, name: &str, size: u32) {
     let scene = scene(name, &[("n", &size.to_string())]);
-    let [Cloth::Sheet(sheet)] = scene.cloths.as_slice() else { panic!("the scenes of this bench have one sheet") };
-    let sphere = scene.bodies.iter().find_map(|body| match body {
-        Body::Sphere(sphere) => Some(sphere.clone()),
-        Body::Mesh(_) | Body::Moving(_) => None,
-    });
-    let model = Model::from_sheet(sheet, &scene.settings);
+    let model = sheet_model(&scene);
     let settings = StepSettings::new(&scene.settings, &model);
-    let mut simulation = Simulation::new(&bench.device, &model, &settings, Colliders { maps: None, sphere })
-        .unwrap_or_else(|error| panic!("{error}"));
+    let mut simulation =
+        Simulation::new(&bench.device, &model, &settings, Colliders { maps: None, sphere: sphere(&scene) })
+            .unwrap_or_else(|error| panic!("{error}"));
     let cost = bench.step_cost(&mut simulation, STEPS);
     let particles = f64::from(model.particle_count());
     println!(

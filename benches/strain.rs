@@ -13,9 +13,9 @@ use glam::{DVec3, Vec3};
 use support::Bench;
 use toile::gpu::readback;
 use toile::model::{Limit, Model, StepSettings};
-use toile::scene::{Body, Cloth, Polish, Rule, Scene, Settings, Sheet, Threshold, VelocityModification};
+use toile::scene::{Cloth, Polish, Rule, Scene, Settings, Sheet, Threshold, VelocityModification};
 use toile::{Colliders, Simulation, Strain};
-use toile_workspace::{Random, scene};
+use toile_workspace::{Random, scene, sheet_model, sphere};
 
 const RULES: [(&str, Rule); 3] =
     [("none", Rule::None), ("predictive", Rule::Predictive), ("hierarchical", Rule::Hierarchical)];
@@ -123,14 +123,11 @@ impl Row {
         let polish = options.polish.filter(|_| rule != Rule::None);
         scene.settings.velocity_modification = VelocityModification { polish, ..VelocityModification::new(rule) };
         scene.settings.fabric.threshold = Threshold::even(options.threshold);
-        let model = Model::from_sheet(sheet(&scene), &scene.settings);
+        let model = sheet_model(&scene);
         let settings = StepSettings::new(&scene.settings, &model);
-        let sphere = scene.bodies.iter().find_map(|body| match body {
-            Body::Sphere(sphere) => Some(sphere.clone()),
-            Body::Mesh(_) | Body::Moving(_) => None,
-        });
-        let mut simulation = Simulation::new(&bench.device, &model, &settings, Colliders { maps: None, sphere })
-            .unwrap_or_else(|error| panic!("{error}"));
+        let colliders = Colliders { maps: None, sphere: sphere(&scene) };
+        let mut simulation =
+            Simulation::new(&bench.device, &model, &settings, colliders).unwrap_or_else(|error| panic!("{error}"));
         let frames = options.frames.unwrap_or(if name == "moving-ball" { 240 } else { 120 });
         let mut over_run = 0.0_f64;
         for _ in 0..frames {

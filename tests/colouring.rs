@@ -4,8 +4,7 @@ use std::collections::HashSet;
 use std::fmt::Write;
 use std::ops::Range;
 use toile_model::Model;
-use toile_scene::Cloth;
-use toile_workspace::{GARMENTS, SCENES, garment, scene, settings};
+use toile_workspace::{GARMENTS, SCENES, garment, scene, settings, sheet_model};
 
 /// Two items of one colour that share a particle, or an item that no colour has.
 fn fault(name: &str, ends: &[[u32; 2]], colours: &[Range<u32>]) -> Option<String> {
@@ -35,9 +34,7 @@ fn check(name: &str, model: &Model) {
 }
 
 fn sheet(name: &str, n: u32) -> Model {
-    let scene = scene(name, &[("n", &n.to_string())]);
-    let Cloth::Sheet(sheet) = &scene.cloths[0] else { panic!("{name} has a sheet") };
-    Model::from_sheet(sheet, &scene.settings)
+    sheet_model(&scene(name, &[("n", &n.to_string())]))
 }
 
 #[test]

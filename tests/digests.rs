@@ -4,8 +4,7 @@ use std::fmt::Write as _;
 use toile_model::{Merge, Model, StepSettings};
 use toile_reference::maps::{Surface, render_maps};
 use toile_reference::{Colliders, Reference};
-use toile_scene::{Body, Cloth};
-use toile_workspace::{GARMENTS, SCENES, body, garment, scene, settings};
+use toile_workspace::{GARMENTS, SCENES, body, garment, scene, settings, sheet_model, sphere};
 
 #[test]
 fn digests_of_the_garments() {
@@ -36,14 +35,10 @@ fn digests_of_the_scenes() {
     let mut text = String::new();
     for name in SCENES {
         let scene = scene(name, &[("n", "17")]);
-        let Cloth::Sheet(sheet) = &scene.cloths[0] else { panic!("{name} has a sheet") };
-        let model = Model::from_sheet(sheet, &scene.settings);
+        let model = sheet_model(&scene);
         let step = StepSettings::new(&scene.settings, &model);
-        let sphere = scene.bodies.iter().find_map(|body| match body {
-            Body::Sphere(sphere) => Some(sphere.clone()),
-            Body::Mesh(_) | Body::Moving(_) => None,
-        });
-        let mut reference = Reference::new(&model, &step, Colliders { maps: None, sphere });
+        let colliders = Colliders { maps: None, sphere: sphere(&scene) };
+        let mut reference = Reference::new(&model, &step, colliders);
         (0..20).for_each(|_| reference.frame());
         writeln!(text, "{name}, 20 frames\n{}", reference.digest()).expect("a string grows");
     }

@@ -6,8 +6,8 @@ use toile_kernels::{Need, TABLE};
 use toile_model::{MapFrame, Model, StepSettings};
 use toile_reference::ExactDistance;
 use toile_reference::maps::{BodyMaps, Surface, render_maps};
-use toile_scene::{Cloth, Mesh, Rule, VelocityModification};
-use toile_workspace::{Layers, body, box_mesh, gpu, scene, uv_sphere, without_triangles};
+use toile_scene::{Mesh, Rule, VelocityModification};
+use toile_workspace::{Layers, body, box_mesh, gpu, scene, sheet_model, uv_sphere, without_triangles};
 
 const TEXEL: f32 = 0.005;
 const THICKNESS: f32 = 0.004;
@@ -171,8 +171,7 @@ fn the_surface_in_the_maps_keeps_the_thickness_from_the_body() {
 fn sheet(rule: Rule) -> (Model, StepSettings) {
     let mut hang = scene("hang", &[("n", "16")]);
     hang.settings.velocity_modification = VelocityModification::new(rule);
-    let Cloth::Sheet(sheet) = &hang.cloths[0] else { panic!("hang has a sheet") };
-    let model = Model::from_sheet(sheet, &hang.settings);
+    let model = sheet_model(&hang);
     let settings = StepSettings::new(&hang.settings, &model);
     (model, settings)
 }

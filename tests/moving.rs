@@ -7,7 +7,7 @@ use toile_model::{Model, StepSettings};
 use toile_reference::maps::{BodyMaps, Surface, render_maps_in, skin_body, vertex_velocities};
 use toile_reference::{Colliders, Reference};
 use toile_scene::{Cloth, Motion, MovingMesh, RigidKey, Rule, Scene, VelocityModification};
-use toile_workspace::{Layers, first_difference, fixture, gpu, read_maps, scene, uv_sphere, vec3_words};
+use toile_workspace::{Layers, first_difference, fixture, gpu, read_maps, scene, sheet_model, uv_sphere, vec3_words};
 
 fn walking(clip: &str) -> MovingMesh {
     let options = toile::files::BodyOptions { clip: Some(clip.to_owned()), ..Default::default() };
@@ -17,8 +17,7 @@ fn walking(clip: &str) -> MovingMesh {
 
 fn sheet(n: &str) -> (Model, Scene) {
     let ball = scene("ball", &[("n", n), ("sheet.0.corner", "[-0.5, 0.256, 0.5]")]);
-    let Cloth::Sheet(sheet) = &ball.cloths[0] else { panic!("the scene has a sheet") };
-    (Model::from_sheet(sheet, &ball.settings), ball)
+    (sheet_model(&ball), ball)
 }
 
 /// A sphere of the scene's size that goes along x at 1 m/s and turns.
@@ -273,8 +272,7 @@ fn an_outer_garment_sees_the_inner_one_as_it_moves() {
     // Upright before the ball, so that the front camera looks at it.
     let placed = [("n", "24"), ("sheet.0.corner", "[-0.5, 0.3, 0.3]"), ("sheet.0.down", "[0.0, -1.0, 0.0]")];
     let scene = scene("ball", &placed);
-    let Cloth::Sheet(sheet) = &scene.cloths[0] else { panic!("the scene has a sheet") };
-    let model = Model::from_sheet(sheet, &scene.settings);
+    let model = sheet_model(&scene);
     let settings = StepSettings::new(&scene.settings, &model);
     let (device, interval) = (&gpu().device, 1.0 / 60.0);
     let frames = MovingFrame::new(&ball, 0.01, settings.thickness, true);

@@ -1,12 +1,13 @@
 //! The passes that each fixture gets: a scene pays for nothing that it does not have.
 
 use glam::DVec3;
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use toile_gpu::{Pass, Plan};
 use toile_kernels::{Kernel, TABLE};
 use toile_model::{Maps, Model, Needs, StepSettings};
-use toile_scene::{Body, Cloth, Polish, Rule, Scene, Settings, Wind};
-use toile_workspace::{GARMENTS, SCENES, garment, scene, settings};
+use toile_scene::{Body, Polish, Rule, Scene, Settings, Wind};
+use toile_workspace::{GARMENTS, SCENES, garment, scene, settings, sheet_model};
 
 fn plan(model: &Model, settings: &StepSettings, bodies: &[Body]) -> Plan {
     let maps = if bodies.iter().any(|body| matches!(body, Body::Mesh(_))) { Maps::Still } else { Maps::None };
@@ -15,9 +16,16 @@ fn plan(model: &Model, settings: &StepSettings, bodies: &[Body]) -> Plan {
 }
 
 fn plan_of_scene(scene: &Scene) -> Plan {
-    let Cloth::Sheet(sheet) = &scene.cloths[0] else { panic!("{} has a sheet", scene.name) };
-    let model = Model::from_sheet(sheet, &scene.settings);
+    let model = sheet_model(scene);
     plan(&model, &StepSettings::new(&scene.settings, &model), &scene.bodies)
+}
+
+/// The plan of a scene and the bytes of its buffers.
+fn plan_and_bytes(scene: &Scene) -> (Plan, BTreeMap<String, u64>) {
+    let model = sheet_model(scene);
+    let plan = plan_of_scene(scene);
+    let bytes = plan.buffer_sizes(&model, &StepSettings::new(&scene.settings, &model));
+    (plan, bytes)
 }
 
 #[test]
@@ -63,21 +71,15 @@ fn a_scene_with_wind_has_its_passes_and_bytes_and_one_without_has_not() {
     for name in SCENES {
         let calm = scene(name, &[]);
         let windy = scene(name, &[("wind", "{ velocity = [1, 0, 0] }")]);
-        let [calm, windy] = [calm, windy].map(|scene| {
-            let Cloth::Sheet(sheet) = &scene.cloths[0] else { panic!("{name} has a sheet") };
-            let model = Model::from_sheet(sheet, &scene.settings);
-            let settings = StepSettings::new(&scene.settings, &model);
-            let plan = plan(&model, &settings, &scene.bodies);
-            let bytes = plan.buffer_sizes(&model, &settings);
-            (plan, bytes, u64::from(model.quad_count()))
-        });
+        let quad_count = u64::from(sheet_model(&calm).quad_count());
+        let [calm, windy] = [calm, windy].map(|scene| plan_and_bytes(&scene));
         let kernels = |plan: &Plan| plan.step.iter().map(|pass| pass.kernel).collect::<Vec<_>>();
         let mut expected = kernels(&calm.0);
         assert_eq!(expected[0], Kernel::SpringForces);
         expected.splice(1..1, [Kernel::QuadWind, Kernel::WindForces]);
         assert_eq!(kernels(&windy.0), expected, "{name}");
         assert_eq!(windy.0.frame, calm.0.frame, "{name}");
-        assert_eq!(windy.1.get("quad_winds"), Some(&(16 * windy.2)), "{name}");
+        assert_eq!(windy.1.get("quad_winds"), Some(&(16 * quad_count)), "{name}");
         assert!(!calm.1.contains_key("quad_winds"), "{name}: {:?}", calm.1);
     }
 }
@@ -87,14 +89,7 @@ fn a_polish_repeats_the_sweep_behind_grants_and_a_plan_without_has_neither() {
     for name in SCENES {
         let plain = scene(name, &[]);
         let polished = scene(name, &[("polish", "{ target = 0.05, sweeps = 3 }")]);
-        let [plain, polished] = [plain, polished].map(|scene| {
-            let Cloth::Sheet(sheet) = &scene.cloths[0] else { panic!("{name} has a sheet") };
-            let model = Model::from_sheet(sheet, &scene.settings);
-            let settings = StepSettings::new(&scene.settings, &model);
-            let plan = plan(&model, &settings, &scene.bodies);
-            let bytes = plan.buffer_sizes(&model, &settings);
-            (plan, bytes)
-        });
+        let [plain, polished] = [plain, polished].map(|scene| plan_and_bytes(&scene));
         let is_decision = |pass: &&Pass| pass.kernel == Kernel::GrantSweep;
         let free: Vec<_> = polished.0.step.iter().filter(|pass| pass.grant.is_none()).cloned().collect();
         let undecided: Vec<_> = free.iter().filter(|pass| !is_decision(pass)).cloned().collect();

@@ -1,24 +1,12 @@
 //! Sheets alone, under every rule, and on spheres: device and reference agree bit for bit over whole runs.
 
 use crate::life::Life;
-use toile_model::{Model, StepSettings};
-use toile_scene::{Body, Cloth, Friction, Polish, Rule, Scene, Sphere, VelocityModification, Wind};
-use toile_workspace::{Layers, finish_frame, first_difference, gpu, scene, uv_sphere, vec3_words};
+use toile_model::StepSettings;
+use toile_scene::{Friction, Polish, Rule, VelocityModification, Wind};
+use toile_workspace::{Layers, finish_frame, first_difference, gpu, scene, sheet_model, sphere, uv_sphere, vec3_words};
 
 const RULES: [Rule; 7] =
     [Rule::None, Rule::Zero, Rule::Average, Rule::Directional, Rule::Position, Rule::Predictive, Rule::Hierarchical];
-
-fn sheet_model(scene: &Scene) -> Model {
-    let Cloth::Sheet(sheet) = &scene.cloths[0] else { panic!("{} has a sheet", scene.name) };
-    Model::from_sheet(sheet, &scene.settings)
-}
-
-fn sphere(scene: &Scene) -> Option<Sphere> {
-    scene.bodies.iter().find_map(|body| match body {
-        Body::Sphere(sphere) => Some(sphere.clone()),
-        Body::Mesh(_) | Body::Moving(_) => None,
-    })
-}
 
 #[test]
 fn a_hanging_sheet_agrees_under_every_rule() {

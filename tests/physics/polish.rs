@@ -3,8 +3,8 @@
 use glam::Vec3;
 use toile::Simulation;
 use toile_model::{Model, Status, StepSettings};
-use toile_scene::{Body, Cloth, Polish, Scene, Settings, Sphere};
-use toile_workspace::{Random, advance, gpu, scene};
+use toile_scene::{Polish, Settings, Sphere};
+use toile_workspace::{Random, advance, gpu, scene, sheet_model, sphere};
 
 /// How a scene went.
 struct Run {
@@ -15,18 +15,6 @@ struct Run {
     /// At the end of any frame.
     elongation_max: f32,
     steps: u32,
-}
-
-fn model_of(scene: &Scene) -> Model {
-    let Cloth::Sheet(sheet) = &scene.cloths[0] else { panic!("{} has a sheet", scene.name) };
-    Model::from_sheet(sheet, &scene.settings)
-}
-
-fn sphere(scene: &Scene) -> Option<Sphere> {
-    scene.bodies.iter().find_map(|body| match body {
-        Body::Sphere(sphere) => Some(sphere.clone()),
-        Body::Mesh(_) | Body::Moving(_) => None,
-    })
 }
 
 fn run(model: &Model, settings: &Settings, polish: Option<Polish>, sphere: Option<Sphere>, frames: u32) -> Run {
@@ -50,7 +38,7 @@ fn a_polish_holds_a_target_that_the_sweeps_of_a_step_do_not() {
     // Lower than the fixture has it, so that it touches within few frames.
     let lower = ("sheet.0.corner", "[-0.5, 0.256, 0.5]");
     let ball = scene("ball", &[("n", "32"), ("fabric.threshold", "0.01"), lower]);
-    let model = model_of(&ball);
+    let model = sheet_model(&ball);
     let target = 0.012;
     let [without, with] = [None, Some(Polish { target, sweeps: 16 })]
         .map(|polish| run(&model, &ball.settings, polish, sphere(&ball), 10));
@@ -66,7 +54,7 @@ fn a_polish_holds_a_target_that_the_sweeps_of_a_step_do_not() {
 #[test]
 fn a_step_that_holds_the_target_moves_as_without_a_polish() {
     let hang = scene("hang", &[("n", "24")]);
-    let model = model_of(&hang);
+    let model = sheet_model(&hang);
     let polish = Some(Polish { target: 0.06, sweeps: 4 });
     let [without, with] = [None, polish].map(|polish| run(&model, &hang.settings, polish, None, 15));
     assert!(with.elongation_max > 0.03, "its limits act: {}", with.elongation_max);
@@ -77,7 +65,7 @@ fn a_step_that_holds_the_target_moves_as_without_a_polish() {
 #[test]
 fn a_target_that_cannot_be_held_is_missed_in_bounded_work() {
     let hang = scene("hang", &[("n", "16")]);
-    let mut model = model_of(&hang);
+    let mut model = sheet_model(&hang);
     let pin = (0..model.positions.len()).rfind(|i| model.inverse_masses[*i] == 0.0).expect("two pins");
     model.positions[pin].x += 0.2;
     let Run { status, steps, .. } = run(&model, &hang.settings, Some(Polish { target: 0.06, sweeps: 3 }), None, 3);
@@ -87,7 +75,7 @@ fn a_target_that_cannot_be_held_is_missed_in_bounded_work() {
 #[test]
 fn a_polish_keeps_the_momentum() {
     let ball = scene("ball", &[("n", "24"), ("gravity", "[0, 0, 0]")]);
-    let mut model = model_of(&ball);
+    let mut model = sheet_model(&ball);
     let random = &mut Random::new(1);
     model.positions.iter_mut().for_each(|position| *position += random.vector(0.01));
     let polish = Some(Polish { target: 0.04, sweeps: 8 });

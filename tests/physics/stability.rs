@@ -1,9 +1,9 @@
 //! Which rules stay bounded on the hanging sheet over 2 s, and how a run that diverges ends.
 
 use toile::{Error, Simulation};
-use toile_model::{Limit, Model, StepSettings};
-use toile_scene::{Cloth, Rule, Threshold, VelocityModification};
-use toile_workspace::{advance, gpu, scene};
+use toile_model::{Limit, StepSettings};
+use toile_scene::{Rule, Threshold, VelocityModification};
+use toile_workspace::{advance, gpu, scene, sheet_model};
 
 const FRAMES: u32 = 120;
 
@@ -22,8 +22,7 @@ struct Run {
 fn hang(n: u32, rule: Rule) -> Run {
     let mut hang = scene("hang", &[("n", &n.to_string())]);
     hang.settings.velocity_modification = VelocityModification::new(rule);
-    let Cloth::Sheet(sheet) = &hang.cloths[0] else { panic!("hang has a sheet") };
-    let model = Model::from_sheet(sheet, &hang.settings);
+    let model = sheet_model(&hang);
     let settings = StepSettings::new(&hang.settings, &model);
     let simulation = Simulation::new(&gpu().device, &model, &settings, Default::default()).expect("it fits the device");
     let mut run = Run { simulation, limits: model.limits, speed_max: 0.0, elongation_max: 0.0, end: Ok(()) };
@@ -56,8 +55,7 @@ fn no_rule_and_the_predictive_rule_stay_bounded() {
 fn each_direction_keeps_its_own_threshold() {
     let mut hang = scene("hang", &[("n", "25")]);
     hang.settings.fabric.threshold = Threshold { warp: 0.015, weft: 0.03, shear: 0.12 };
-    let Cloth::Sheet(sheet) = &hang.cloths[0] else { panic!("hang has a sheet") };
-    let model = Model::from_sheet(sheet, &hang.settings);
+    let model = sheet_model(&hang);
     let settings = StepSettings::new(&hang.settings, &model);
     let mut simulation =
         Simulation::new(&gpu().device, &model, &settings, Default::default()).expect("it fits the device");

@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 use toile_files::{BodyOptions, read_body, read_garment, read_scene};
-use toile_scene::{Fabric, Garment, Mesh, Scene, Settings};
+use toile_model::Model;
+use toile_scene::{Body, Cloth, Fabric, Garment, Mesh, Scene, Settings, Sphere};
 
 /// Names of the scenes in `fixtures/scenes`.
 pub const SCENES: [&str; 3] = ["hang", "ball", "moving-ball"];
@@ -20,6 +21,23 @@ pub fn scene(name: &str, overrides: &[(&str, &str)]) -> Scene {
     let overrides: Vec<_> = overrides.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
     let file = read_scene(&fixture(&format!("scenes/{name}.toml")), &overrides);
     file.unwrap_or_else(|error| panic!("{error}")).scene
+}
+
+/// The model of the sheet of a scene.
+///
+/// # Panics
+/// When the scene has none.
+pub fn sheet_model(scene: &Scene) -> Model {
+    let [Cloth::Sheet(sheet)] = scene.cloths.as_slice() else { panic!("{} has one sheet", scene.name) };
+    Model::from_sheet(sheet, &scene.settings)
+}
+
+/// The sphere of a scene, if it has one.
+pub fn sphere(scene: &Scene) -> Option<Sphere> {
+    scene.bodies.iter().find_map(|body| match body {
+        Body::Sphere(sphere) => Some(sphere.clone()),
+        Body::Mesh(_) | Body::Moving(_) => None,
+    })
 }
 
 /// A garment by name.

@@ -46,8 +46,6 @@ pub struct StepSettings {
     pub sweeps: u32,
     /// Further sweeps in steps that need them.
     pub polish: Option<Polish>,
-    /// Part of the threshold that the limits hold [1]; the rest is for what the sweeps leave.
-    pub aim: f32,
     /// Whether the whole way of a point is tested against the bodies, not its end alone.
     pub swept: bool,
 }
@@ -77,7 +75,6 @@ impl StepSettings {
             rule: settings.velocity_modification.rule,
             sweeps: settings.velocity_modification.sweeps,
             polish: settings.velocity_modification.polish,
-            aim: aim(model.rule),
             swept: settings.swept,
         }
     }
@@ -87,6 +84,11 @@ impl StepSettings {
     /// The part of [`Self::push_speed`] that each of the sweeps has [m/s]; further sweeps have as much each.
     pub fn push_speed_per_sweep(&self) -> f32 {
         self.push_speed / self.sweeps.max(1) as f32
+    }
+
+    /// Part of the threshold that the limits of the rule hold [1]; the rest is for what the sweeps leave.
+    pub fn aim(&self) -> f32 {
+        aim(self.rule)
     }
 
     /// The change of normal speed by one sweep that friction counts at most [m/s]: what [`Self::pressing`] gives in a step, in equal parts;

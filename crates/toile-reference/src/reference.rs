@@ -51,7 +51,6 @@ pub struct Colliders {
 ///     rule: Rule::Predictive,
 ///     sweeps: 1,
 ///     polish: None,
-///     aim: 1.0,
 ///     swept: true,
 /// };
 /// let mut reference = Reference::new(&model, &settings, Colliders::default());
@@ -240,7 +239,7 @@ impl Reference {
     /// What the simulation reports of its state.
     pub fn status(&self) -> Status {
         let particles = frame::particle_status(&self.particles);
-        let limits = frame::limit_status(&self.particles.positions, &self.model.limits, self.settings.aim);
+        let limits = frame::limit_status(&self.particles.positions, &self.model.limits, self.settings.aim());
         Status {
             step: self.step,
             non_finite_count: particles.non_finite_count,

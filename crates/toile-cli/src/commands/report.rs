@@ -56,7 +56,7 @@ fn write(folder: &Path, page: &Page, json: &str, stem: &str) -> Result<()> {
     Ok(())
 }
 
-/// The report of the experiments, and how they ended: an hour of measuring is not lost to the last of them, or to ctrl-c.
+/// The report of the experiments, and how they ended: what was measured is not lost to the last of them, or to ctrl-c.
 fn measure(arguments: &ReportOf) -> Result<(Report, Result<()>)> {
     let wanted = |experiment: &&Experiment| {
         arguments.only.is_empty() || arguments.only.iter().any(|name| name == experiment.name)

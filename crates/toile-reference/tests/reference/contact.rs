@@ -87,6 +87,33 @@ fn the_papers_law_never_sticks() {
     assert!((speed - expected).abs() < 2e-3 * expected, "reaches {speed}, not {expected}");
 }
 
+/// Velocity of the cloth after it met the plate at 1 m/s, 2 m/s along it.
+fn pressed(pressing: f32, sweeps: u32) -> Vec3 {
+    let maps = plate();
+    let settings = StepSettings { gravity: Vec3::ZERO, friction: FRICTION, pressing, sweeps, ..settings() };
+    let model = Grid { down: Vec3::Y, ..Grid::horizontal(2, 0.02) }.model();
+    let mut particles = toile_reference::Particles::new(&model);
+    particles.positions.iter_mut().for_each(|position| position.z = 0.0);
+    particles.velocities.fill(vec3(2.0, 0.0, -1.0));
+    let probes = step::sample_maps(&particles.positions, &particles.velocities, &maps, &settings);
+    let midpoints = step::quad_midpoints(&particles.positions, &particles.velocities, &model.quads);
+    let seen = step::Probes { particles: &probes, quads: &[Probe::default()] };
+    step::collide(&mut particles, &model.particle_quads, &midpoints, seen, &settings);
+    particles.velocities[0]
+}
+
+#[test]
+fn friction_counts_a_pressure_up_to_its_bound() {
+    let whole = pressed(f32::INFINITY, 1);
+    assert!((whole - vec3(2.0 - FRICTION, 0.0, 0.0)).length() < 1e-6, "{whole}");
+    for sweeps in [1, 4] {
+        let bounded = pressed(200.0, sweeps);
+        let counted = 200.0 * settings().dt / sweeps as f32;
+        assert!(counted < 1.0, "the bound acts");
+        assert!((bounded - vec3(2.0 - FRICTION * counted, 0.0, 0.0)).length() < 1e-6, "{sweeps}: {bounded}");
+    }
+}
+
 #[test]
 fn a_rebound_gives_back_its_part_of_the_approach() {
     let maps = plate();

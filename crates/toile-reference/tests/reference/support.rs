@@ -31,7 +31,6 @@ pub fn settings() -> StepSettings {
         rule: Rule::None,
         sweeps: 1,
         polish: None,
-        aim: 1.0,
         swept: true,
     }
 }

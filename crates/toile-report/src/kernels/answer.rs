@@ -101,7 +101,7 @@ pub fn answer(kernel: Kernel, input: &mut Input) {
         }
         Kernel::TotalEnergy => input.status.kinetic_energy = frame::total_energy(&before.energy_partials),
         Kernel::LimitStatus => {
-            let status = frame::limit_status(&particles.positions, &before.limits, settings.aim);
+            let status = frame::limit_status(&particles.positions, &before.limits, settings.aim());
             input.status.elongation_max = status.elongation_max.to_bits();
             input.status.over_long_count = status.over_long_count;
         }

@@ -186,7 +186,7 @@ impl Input {
             wind: wind.velocity.as_vec3(),
             drag: wind.drag as f32,
             lift: wind.lift as f32,
-            aim: s.aim,
+            aim: s.aim(),
             limit_count: self.limits.len() as u32,
         }
     }

@@ -134,7 +134,7 @@ impl Seeds {
         input.copies.velocities.fill(Vec3::ZERO);
         place_at_the_edges(random, &mut input);
         if kernel == Kernel::LongestLimit {
-            let status = frame::limit_status(&input.particles.positions, &input.limits, input.settings.aim);
+            let status = frame::limit_status(&input.particles.positions, &input.limits, input.settings.aim());
             input.status.elongation_max = status.elongation_max.to_bits();
         }
         if kernel == Kernel::MeasureExcess {
@@ -187,7 +187,6 @@ fn step_settings(variant: Variant) -> StepSettings {
         pressing: 200.0,
         sweeps: 1,
         polish: Some(Polish { target: 0.1, sweeps: 3 }),
-        aim: 0.6,
         contact_margin: 1e-3,
         friction: 0.8,
         hold_rate: 10.0,
