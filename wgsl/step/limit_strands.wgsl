@@ -13,28 +13,77 @@
 // Few, because the strands of a garment are short: on a driver that runs on the CPU more lanes cost more than they do.
 const LANES: u32 = 8u;
 const STRAND_PARTICLES: u32 = 512u;
+// From this level on a limit goes along four chords, each a quarter of its edges.
+const PATH_LEVEL: u32 = 2u;
 
 // Where the particles will be after the coming move, with their inverse masses; and by how much their velocities have changed.
 var<workgroup> places: array<vec4<f32>, STRAND_PARTICLES>;
 var<workgroup> changes: array<vec3<f32>, STRAND_PARTICLES>;
 
-fn hold(a: u32, b: u32, max_length: f32) {
+fn shift(k: u32, way: vec3<f32>) {
+    let place = places[k];
+    places[k] = vec4<f32>(place.xyz + way * place.w, place.w);
+    changes[k] = changes[k] + way * (place.w / step.dt);
+}
+
+// A limit between two particles.
+fn hold_chord(a: u32, b: u32, max_length: f32) {
     let place_a = places[a];
     let place_b = places[b];
-    let difference = place_b.xyz - place_a.xyz;
-    let squared_length = dot(difference, difference);
+    let chord = place_b.xyz - place_a.xyz;
+    let squared_length = dot(chord, chord);
     let inverse_mass_sum = place_a.w + place_b.w;
     // Most limits are slack: they cost no root and no write.
     if squared_length > max_length * max_length && inverse_mass_sum > 0.0 {
         let predicted_length = sqrt(squared_length);
-        let impulse = difference
-            * ((predicted_length - max_length) / ((predicted_length * step.dt) * inverse_mass_sum));
-        let change_a = impulse * place_a.w;
-        let change_b = impulse * place_b.w;
-        places[a] = vec4<f32>(place_a.xyz + change_a * step.dt, place_a.w);
-        places[b] = vec4<f32>(place_b.xyz - change_b * step.dt, place_b.w);
-        changes[a] = changes[a] + change_a;
-        changes[b] = changes[b] - change_b;
+        let way = chord * ((predicted_length - max_length) / (predicted_length * inverse_mass_sum));
+        shift(a, way);
+        shift(b, -way);
+    }
+}
+
+fn direction(chord: vec3<f32>, chord_length: f32) -> vec3<f32> {
+    if chord_length > 0.0 {
+        return chord / chord_length;
+    }
+    return vec3<f32>(0.0);
+}
+
+// A limit along four chords: it also holds where the strand lies around a body, which a single chord cuts short.
+fn hold_path(a: u32, quarter: u32, max_length: f32) {
+    let b = a + quarter;
+    let c = b + quarter;
+    let d = c + quarter;
+    let e = d + quarter;
+    let ab = places[b].xyz - places[a].xyz;
+    let bc = places[c].xyz - places[b].xyz;
+    let cd = places[d].xyz - places[c].xyz;
+    let de = places[e].xyz - places[d].xyz;
+    let squared = vec4<f32>(dot(ab, ab), dot(bc, bc), dot(cd, cd), dot(de, de));
+    // No path is longer than four even chords with the same sum of squares: most cost no root.
+    if 4.0 * ((squared.x + squared.y) + (squared.z + squared.w)) > max_length * max_length {
+        let lengths = sqrt(squared);
+        let excess = ((lengths.x + lengths.y) + (lengths.z + lengths.w)) - max_length;
+        if excess > 0.0 {
+            let along_ab = direction(ab, lengths.x);
+            let along_bc = direction(bc, lengths.y);
+            let along_cd = direction(cd, lengths.z);
+            let along_de = direction(de, lengths.w);
+            let at_b = along_bc - along_ab;
+            let at_c = along_cd - along_bc;
+            let at_d = along_de - along_cd;
+            let ends = places[a].w * dot(along_ab, along_ab) + places[e].w * dot(along_de, along_de);
+            let bends = (places[b].w * dot(at_b, at_b) + places[c].w * dot(at_c, at_c)) + places[d].w * dot(at_d, at_d);
+            let yielding = ends + bends;
+            if yielding > 0.0 {
+                let pull = excess / yielding;
+                shift(a, along_ab * pull);
+                shift(b, at_b * pull);
+                shift(c, at_c * pull);
+                shift(d, at_d * pull);
+                shift(e, along_de * -pull);
+            }
+        }
     }
 }
 
@@ -60,16 +109,32 @@ fn limit_strands(
         let level = above - 1u;
         let reach = 1u << level;
         let lengths = strand.lengths + level * strand.count - (reach - 1u);
-        // Every other limit of a level, so that no two share a particle.
-        for (var parity = 0u; parity < 2u; parity++) {
-            for (var k = lane; k < strand.count; k += LANES) {
-                let a = ((k >> level) << (level + 1u)) + (parity << level) + (k & (reach - 1u));
-                if a + reach >= strand.count {
-                    break;
+        if level >= PATH_LEVEL {
+            // Every fifth quarter, so that no two paths share a particle.
+            let shorter = level - PATH_LEVEL;
+            let quarter = 1u << shorter;
+            for (var phase = 0u; phase < 5u; phase++) {
+                for (var k = lane; k < strand.count; k += LANES) {
+                    let a = (5u * (k >> shorter) + phase) * quarter + (k & (quarter - 1u));
+                    if a + reach >= strand.count {
+                        break;
+                    }
+                    hold_path(a, quarter, strand_lengths[lengths + a]);
                 }
-                hold(a, a + reach, strand_lengths[lengths + a]);
+                workgroupBarrier();
             }
-            workgroupBarrier();
+        } else {
+            // Every other limit, so that no two share a particle.
+            for (var parity = 0u; parity < 2u; parity++) {
+                for (var k = lane; k < strand.count; k += LANES) {
+                    let a = ((k >> level) << (level + 1u)) + (parity << level) + (k & (reach - 1u));
+                    if a + reach >= strand.count {
+                        break;
+                    }
+                    hold_chord(a, a + reach, strand_lengths[lengths + a]);
+                }
+                workgroupBarrier();
+            }
         }
     }
     for (var k = lane; k < strand.count; k += LANES) {

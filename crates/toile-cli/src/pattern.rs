@@ -94,10 +94,10 @@ impl Drawing<'_> {
             self.path(&format!("strand {direction}"), &steps);
             long.push((direction, long_limit(cloth, strand, &steps, index)));
         }
-        for limit in &cloth.loose_limits {
+        for limit in cloth.loose_limits() {
             self.path("loose", &self.loose(limit));
+            counts.loose += 1;
         }
-        counts.loose += cloth.loose_limits.len();
         // Diagonals below the others, of which there are fewer.
         long.sort_by_key(|(direction, _)| *direction != "diagonal");
         for (direction, steps) in long {

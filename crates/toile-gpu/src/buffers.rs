@@ -1,13 +1,12 @@
 //! The buffers of a plan: those that its kernels name, and no other.
 
-use crate::plan::limit_colours;
 use crate::{GpuError, Plan};
 use encase::{ShaderType, StorageBuffer, UniformBuffer, internal::WriteInto};
 use glam::{DVec3, Vec3, Vec4};
 use std::collections::BTreeMap;
 use toile_kernels::{Binding, Interface, Resource, WORKGROUP_SIZE, structs};
 use toile_model::{Model, StepSettings};
-use toile_scene::{Friction, Polish, Rule, Wind};
+use toile_scene::{Friction, Polish, Wind};
 use wgpu::util::DeviceExt;
 
 /// Bytes from one entry of a moving uniform to the next: the alignment that every WebGPU device accepts.
@@ -134,7 +133,7 @@ fn contents(name: &str, model: &Model, settings: &StepSettings, plan: &Plan) -> 
     let quads = u64::from(model.quad_count());
     match name {
         "step" => uniform(&step_params(model, settings)),
-        "span" => Contents::Bytes(spans(model, settings.rule)),
+        "span" => Contents::Bytes(spans(model)),
         "ball" | "lag" => Contents::Zeros(u64::from(settings.steps_per_frame) * MOVING_UNIFORM_STRIDE),
         "positions" => {
             Contents::Bytes(vec4s(model.positions.iter().zip(&model.inverse_masses).map(|(p, w)| p.extend(*w))))
@@ -155,7 +154,7 @@ fn contents(name: &str, model: &Model, settings: &StepSettings, plan: &Plan) -> 
                 rest_length: l.rest_length,
                 max_length: l.max_length,
             };
-            array(model.limits.iter().chain(&model.loose_limits).map(limit).collect())
+            array(model.limits.iter().map(limit).collect())
         }
         "strands" => {
             let strand = |s: &toile_model::Strand| structs::Strand {
@@ -246,9 +245,9 @@ fn step_params(model: &Model, settings: &StepSettings) -> structs::StepParams {
 }
 
 /// The spans of the colours of the limits, of the strands, then those of the seam pairs.
-fn spans(model: &Model, rule: Rule) -> Vec<u8> {
+fn spans(model: &Model) -> Vec<u8> {
     let mut bytes = Vec::new();
-    for colour in limit_colours(model, rule).iter().chain(&model.strand_colours).chain(&model.seam_colours) {
+    for colour in model.limit_colours.iter().chain(&model.strand_colours).chain(&model.seam_colours) {
         let span = structs::Span { first: colour.start, count: colour.end - colour.start };
         bytes.extend(uniform_bytes(&span));
         bytes.resize(bytes.len().next_multiple_of(MOVING_UNIFORM_STRIDE as usize), 0);

@@ -71,7 +71,7 @@ impl Plan {
         let mut step = Vec::new();
         let mut sweep: Vec<Pass> = Vec::new();
         for group in rows.chunk_by(|a, b| a.stage == b.stage) {
-            let passes: Vec<Pass> = group.iter().flat_map(|row| passes(row, model, needs)).collect();
+            let passes: Vec<Pass> = group.iter().flat_map(|row| passes(row, model, settings)).collect();
             match group[0].stage {
                 Stage::Step => step.extend(passes),
                 Stage::Sweep => {
@@ -83,7 +83,7 @@ impl Plan {
             }
         }
         let frame =
-            rows.iter().filter(|row| row.stage == Stage::Frame).flat_map(|row| passes(row, model, needs)).collect();
+            rows.iter().filter(|row| row.stage == Stage::Frame).flat_map(|row| passes(row, model, settings)).collect();
         Self { step, frame }
     }
 
@@ -156,17 +156,7 @@ fn holds(need: Need, needs: &Needs) -> bool {
     }
 }
 
-/// Colours of the limits that a rule works on: those of all springs, or under the hierarchical rule those that lie on no strand, which
-/// come after them in the array.
-pub(crate) fn limit_colours(model: &Model, rule: Rule) -> Vec<Range<u32>> {
-    if rule != Rule::Hierarchical {
-        return model.limit_colours.clone();
-    }
-    let first = model.limits.len() as u32;
-    model.loose_limit_colours.iter().map(|colour| first + colour.start..first + colour.end).collect()
-}
-
-fn passes(row: &Row, model: &Model, needs: &Needs) -> Vec<Pass> {
+fn passes(row: &Row, model: &Model, settings: &StepSettings) -> Vec<Pass> {
     let workgroup_per_item = matches!(row.domain, Domain::Hold | Domain::StrandColour);
     let pass = |items, colour| Pass { kernel: row.kernel, items, colour, workgroup_per_item, grant: None };
     let all = |count: u32| vec![pass(0..count, None)];
@@ -179,7 +169,7 @@ fn passes(row: &Row, model: &Model, needs: &Needs) -> Vec<Pass> {
         Domain::Point => all(model.particle_count() + model.quad_count()),
         Domain::Hold => all(model.holds.len() as u32),
         Domain::Limit => all(model.limits.len() as u32),
-        Domain::LimitColour => coloured(&limit_colours(model, needs.rule)),
+        Domain::LimitColour => (0..settings.limit_passes()).flat_map(|_| coloured(&model.limit_colours)).collect(),
         Domain::StrandColour => coloured(&model.strand_colours),
         Domain::SeamPair => all(model.seam_pair_count()),
         Domain::SeamColour => coloured(&model.seam_colours),

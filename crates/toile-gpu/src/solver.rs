@@ -1,7 +1,6 @@
 //! The solver: records the passes of a plan.
 
 use crate::buffers::{Buffers, DISPATCH_STRIDE, MOVING_UNIFORM_STRIDE, uniform_bytes};
-use crate::plan::limit_colours;
 use crate::status::StatusReader;
 use crate::timing::{PassTime, Timer};
 use crate::{BodyMaps, GpuError, Pass, Plan, Program};
@@ -83,7 +82,7 @@ impl Solver {
             (kernel, BoundProgram { program, group })
         };
         let programs = programs.into_iter().map(bound).collect();
-        let first_strand = limit_colours(model, settings.rule).len() as u32;
+        let first_strand = model.limit_colours.len() as u32;
         let first_spans = [first_strand, first_strand + model.strand_colours.len() as u32];
         Ok(Self {
             settings: settings.clone(),

@@ -169,7 +169,7 @@ kernels! {
     LimitAttachments "step" "limit_attachments" Sweep Particle Attachments;
     /// The default rule, along lines of cloth.
     LimitStrands "step" "limit_strands" Sweep StrandColour Strands;
-    /// The predictive rule on single springs; under the default rule on those that lie on no strand.
+    /// The predictive rule on single springs; under the default rule after the strands.
     LimitPredictive "step" "limit_predictive" Sweep LimitColour RulePredictive;
     /// Points of the quads that are tested. D §6.
     QuadMidpoints "step" "quad_midpoints" Sweep Quad Body;

@@ -34,7 +34,7 @@ mod union_find;
 pub use csr::Csr;
 pub use dressing::{Dressing, DressingError, Stage};
 pub use error::ModelError;
-pub use long_limits::STRAND_PARTICLES_MAX;
+pub use long_limits::{STRAND_PARTICLES_MAX, path_chord};
 pub use map_frame::MapFrame;
 pub use model::{
     Attachment, Hold, Limit, Link, Merge, Model, NO_CORNER, PanelMesh, SeamPair, Spring, SpringKind, Strand,

@@ -1,15 +1,16 @@
 //! Limits that span many cells: what one of them holds, a sweep over single springs would take a sweep per cell to hold.
 
 use crate::assemble::{aim, stretched};
-use crate::colouring::{Pair, sort_by_colour};
 use crate::lines::{Cloth, Line};
-use crate::{Attachment, Csr, Model, Strand};
+use crate::{Attachment, Csr, Limit, Model, Strand};
 use glam::DVec2;
 
 /// Particles of a strand at most: what a workgroup holds in its memory.
 pub const STRAND_PARTICLES_MAX: u32 = 512;
-/// Particles of a strand at least: what is shorter keeps no workgroup busy, and its springs are loose limits.
+/// Particles of a strand at least: what is shorter keeps no workgroup busy, and the passes over single springs hold it.
 const STRAND_PARTICLES_MIN: usize = 8;
+/// Chords of a long limit: around a body the cloth lies along a path, which a single chord cuts short.
+const PATH_CHORDS: usize = 4;
 /// Cells along the longest limits of a small cloth.
 const CELLS_MIN: usize = 8;
 /// Part of a square cloth that the longest limits span at least [1].
@@ -18,7 +19,7 @@ const CELLS_PART: f64 = 1.0 / 16.0;
 const ATTACHMENT_COUNT: usize = 4;
 
 impl Model {
-    /// Fills the strands of a cloth, and the limits of the springs that lie on none.
+    /// Fills the strands of a cloth.
     pub(crate) fn add_strands(&mut self, cloth: &Cloth<'_>) {
         let cells_max = CELLS_MIN.max(((cloth.particle_count as f64).sqrt() * CELLS_PART).round() as usize);
         let rims = cloth.rims();
@@ -28,7 +29,6 @@ impl Model {
             sides.iter().chain(&diagonals).filter(|line| line.particles.len() >= STRAND_PARTICLES_MIN).collect();
         let colours = line_colours(&lines, cloth.particle_count);
         let aim = aim(self.rule);
-        let mut strand_ends: Vec<[u32; 2]> = Vec::new();
         for colour in 0..colours.iter().max().map_or(0, |last| last + 1) {
             let first = self.strands.len() as u32;
             for (line, _) in lines.iter().zip(&colours).filter(|(_, c)| **c == colour) {
@@ -41,22 +41,33 @@ impl Model {
                 };
                 let mut cells = 1;
                 while cells <= cells_max.min(line.particles.len() - 1) {
-                    let spans = cloth.spans(line, cells, &rims);
-                    self.strand_lengths
-                        .extend(spans.iter().map(|span| stretched(span.length as f32, aim * span.threshold as f32)));
+                    let chord = path_chord(strand.level_count);
+                    let spans = cloth.spans(line, chord, &rims);
+                    let lengths: Vec<f32> =
+                        spans.iter().map(|span| stretched(span.length as f32, aim * span.threshold as f32)).collect();
+                    let path = |first: usize| lengths[first..=first + cells - chord].iter().step_by(chord).sum::<f32>();
+                    self.strand_lengths.extend((0..line.particles.len() - cells).map(path));
                     strand.level_count += 1;
                     cells *= 2;
                 }
-                strand_ends.extend(line.particles.windows(2).map(|p| [p[0].min(p[1]), p[0].max(p[1])]));
                 self.strands.push(strand);
             }
             self.strand_colours.push(first..self.strands.len() as u32);
         }
-        strand_ends.sort_unstable();
-        self.loose_limits =
-            self.spring_limits().filter(|limit| strand_ends.binary_search(&limit.ends).is_err()).collect();
-        let pairs: Vec<Pair> = self.loose_limits.iter().map(|l| Pair { ends: l.ends, family: None }).collect();
-        self.loose_limit_colours = sort_by_colour(&mut self.loose_limits, &pairs, cloth.particle_count);
+    }
+
+    /// The limits of single springs that lie on no strand.
+    pub fn loose_limits(&self) -> impl Iterator<Item = &Limit> {
+        let mut on_strands: Vec<[u32; 2]> = self
+            .strands
+            .iter()
+            .flat_map(|strand| {
+                self.strand_particles[strand.particles.start as usize..strand.particles.end as usize].windows(2)
+            })
+            .map(|p| [p[0].min(p[1]), p[0].max(p[1])])
+            .collect();
+        on_strands.sort_unstable();
+        self.limits.iter().filter(move |limit| on_strands.binary_search(&limit.ends).is_err())
     }
 
     /// Every limit along every strand, strand by strand, from single cells to the longest: its two particles and its maximum length [m].
@@ -83,6 +94,13 @@ impl Strand {
         let count = self.particles.end - self.particles.start;
         self.lengths + level * count - ((1 << level) - 1)
     }
+}
+
+/// Edges that one chord of a limit spans, at a level of a strand: limits over four edges and more go along a path of four chords, shorter
+/// ones along one.
+pub fn path_chord(level: u32) -> usize {
+    let edges = 1 << level;
+    if edges < PATH_CHORDS { edges } else { edges / PATH_CHORDS }
 }
 
 /// A colour for each line: no two of a colour share a particle. Sides come first, and so warp and weft of a grid, then its diagonals.

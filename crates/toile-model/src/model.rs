@@ -35,11 +35,6 @@ pub struct Model {
     pub strand_particles: Vec<u32>,
     /// Maximum lengths [m] of the limits of all strands, strand by strand, level by level; as [`Limit::max_length`].
     pub strand_lengths: Vec<f32>,
-    /// Limits of the structural and shear springs that lie on no strand, sorted by colour. Empty unless the rule is
-    /// [`Rule::Hierarchical`].
-    pub loose_limits: Vec<Limit>,
-    /// Loose limits of each colour: no two of them share a particle.
-    pub loose_limit_colours: Vec<Range<u32>>,
     /// For each particle the pins that hold it; shape [particle_count] rows. Empty rows unless the rule is [`Rule::Hierarchical`].
     pub attachments: Csr<Attachment>,
     /// Particles that a seam pulls together, sorted by colour. Empty once merged.

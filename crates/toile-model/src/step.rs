@@ -5,6 +5,10 @@ use crate::assemble::aim;
 use glam::Vec3;
 use toile_scene::{Friction, Polish, Rule, Settings, Wind};
 
+/// Passes over single springs after the strands. Strands of four directions disagree by what single springs are left with, most where cloth
+/// whips or slaps on a body and longer limits are slack.
+const LIMIT_PASSES: u32 = 3;
+
 /// Twenty times the weight of the cloth: of cotton about 30 Pa, as if it were drawn with 3 N/m around a waist [m/s²].
 const PRESSING: f32 = 200.0;
 
@@ -89,6 +93,11 @@ impl StepSettings {
     /// Part of the threshold that the limits of the rule hold [1]; the rest is for what the sweeps leave.
     pub fn aim(&self) -> f32 {
         aim(self.rule)
+    }
+
+    /// How often a sweep goes over the limits of single springs.
+    pub fn limit_passes(&self) -> u32 {
+        if self.rule == Rule::Hierarchical { LIMIT_PASSES } else { 1 }
     }
 
     /// The change of normal speed by one sweep that friction counts at most [m/s]: what [`Self::pressing`] gives in a step, in equal parts;

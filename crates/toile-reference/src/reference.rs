@@ -177,7 +177,7 @@ impl Reference {
         step::grant_sweep(&mut self.polish, polish.sweeps)
     }
 
-    /// One sweep over all limits, colour by colour; under the hierarchical rule from pins outward, then along strands.
+    /// One sweep over all limits, colour by colour; under the hierarchical rule from pins outward, along strands, then single springs.
     fn sweep_velocities(&mut self) {
         let Self { model, settings, particles, contacts, .. } = self;
         let contacts = (!contacts.is_empty()).then_some(contacts.as_slice());
@@ -190,19 +190,15 @@ impl Reference {
             for colour in &model.strand_colours {
                 step::limit_strands(particles, part(&model.strands, colour), line, lengths, settings.dt);
             }
-            for colour in &model.loose_limit_colours {
-                step::limit_predictive(particles, part(&model.loose_limits, colour), settings.dt);
-            }
-            return;
         }
-        for colour in &model.limit_colours {
+        for colour in (0..settings.limit_passes()).flat_map(|_| &model.limit_colours) {
             let limits = part(&model.limits, colour);
             match settings.rule {
-                Rule::None | Rule::Position | Rule::Hierarchical => {}
+                Rule::None | Rule::Position => {}
                 Rule::Zero => step::limit_zero(particles, limits),
                 Rule::Average => step::limit_average(particles, limits),
                 Rule::Directional => step::limit_directional(particles, limits, contacts, settings),
-                Rule::Predictive => step::limit_predictive(particles, limits, settings.dt),
+                Rule::Predictive | Rule::Hierarchical => step::limit_predictive(particles, limits, settings.dt),
             }
         }
     }

@@ -131,13 +131,12 @@ fn folds_open_where_something_resists_shortening() {
 type Kernel = fn(&Model, &mut Particles, &StepSettings);
 
 /// Every kernel of a limit, over all limits of a model.
-const KERNELS: [(&str, Kernel); 8] = [
+const KERNELS: [(&str, Kernel); 7] = [
     ("zero", |model, particles, _| step::limit_zero(particles, &model.limits)),
     ("average", |model, particles, _| step::limit_average(particles, &model.limits)),
     ("directional", |model, particles, step| step::limit_directional(particles, &model.limits, None, step)),
     ("position", |model, particles, _| step::limit_position(particles, &model.limits)),
     ("predictive", |model, particles, step| step::limit_predictive(particles, &model.limits, step.dt)),
-    ("loose", |model, particles, step| step::limit_predictive(particles, &model.loose_limits, step.dt)),
     ("strands", |model, particles, step| {
         let (line, lengths) = (&model.strand_particles, &model.strand_lengths);
         step::limit_strands(particles, &model.strands, line, lengths, step.dt);

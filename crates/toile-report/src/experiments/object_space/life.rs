@@ -70,8 +70,8 @@ impl<'a> Life<'a> {
             let strands = &model.strands[colour.start as usize..colour.end as usize];
             step::limit_strands(particles, strands, line, lengths, settings.dt);
         }
-        for colour in &model.loose_limit_colours {
-            let limits = &model.loose_limits[colour.start as usize..colour.end as usize];
+        for colour in (0..settings.limit_passes()).flat_map(|_| &model.limit_colours) {
+            let limits = &model.limits[colour.start as usize..colour.end as usize];
             step::limit_predictive(particles, limits, settings.dt);
         }
     }
