@@ -33,7 +33,7 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// The default settings for a fabric: four sweeps of hierarchical limits, Coulomb friction, particles at 1 cm, texels of 0.5 cm (D eq. 11),
+    /// The default settings for a fabric: three sweeps of hierarchical limits, Coulomb friction, particles at 1 cm, texels of 0.5 cm (D eq. 11),
     /// 60 frames per second.
     pub fn new(fabric: Fabric) -> Self {
         Self {
@@ -94,9 +94,9 @@ pub struct VelocityModification {
 }
 
 impl VelocityModification {
-    /// A rule with the sweeps that it is made for: four of hierarchical limits, one of all others.
+    /// A rule with the sweeps that it is made for: three of hierarchical limits, one of all others.
     pub fn new(rule: Rule) -> Self {
-        Self { rule, sweeps: if rule == Rule::Hierarchical { 4 } else { 1 }, polish: None }
+        Self { rule, sweeps: if rule == Rule::Hierarchical { 3 } else { 1 }, polish: None }
     }
 }
 
