@@ -89,6 +89,7 @@ fn a_polish_repeats_the_sweep_behind_grants_and_a_plan_without_has_neither() {
     for name in SCENES {
         let plain = scene(name, &[]);
         let polished = scene(name, &[("polish", "{ target = 0.05, sweeps = 3 }")]);
+        let sweeps = plain.settings.velocity_modification.sweeps as usize;
         let [plain, polished] = [plain, polished].map(|scene| plan_and_bytes(&scene));
         let is_decision = |pass: &&Pass| pass.kernel == Kernel::GrantSweep;
         let free: Vec<_> = polished.0.step.iter().filter(|pass| pass.grant.is_none()).cloned().collect();
@@ -101,7 +102,7 @@ fn a_polish_repeats_the_sweep_behind_grants_and_a_plan_without_has_neither() {
 
         let sweep: Vec<_> = plain.0.step[..plain.0.step.len() - 1].iter().skip_while(|p| !is_limit(p)).collect();
         let further: Vec<Pass> =
-            sweep[..sweep.len() / 4].iter().map(|pass| (*pass).clone()).chain([measurement]).collect();
+            sweep[..sweep.len() / sweeps].iter().map(|pass| (*pass).clone()).chain([measurement]).collect();
         let numbered = further.iter().zip(0..).map(|(pass, place)| Pass { grant: Some(place), ..pass.clone() });
         let granted: Vec<_> = polished.0.step.iter().filter(|pass| pass.grant.is_some()).cloned().collect();
         let three: Vec<Pass> = numbered.cycle().take(3 * further.len()).collect();

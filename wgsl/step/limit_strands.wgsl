@@ -61,9 +61,9 @@ fn hold_path(a: u32, quarter: u32, max_length: f32) {
     let de = places[e].xyz - places[d].xyz;
     let squared = vec4<f32>(dot(ab, ab), dot(bc, bc), dot(cd, cd), dot(de, de));
     // No path is longer than four even chords with the same sum of squares: most cost no root.
-    if 4.0 * ((squared.x + squared.y) + (squared.z + squared.w)) > max_length * max_length {
+    if 4.0 * (squared.x + squared.y + squared.z + squared.w) > max_length * max_length {
         let lengths = sqrt(squared);
-        let excess = ((lengths.x + lengths.y) + (lengths.z + lengths.w)) - max_length;
+        let excess = lengths.x + lengths.y + lengths.z + lengths.w - max_length;
         if excess > 0.0 {
             let along_ab = direction(ab, lengths.x);
             let along_bc = direction(bc, lengths.y);
@@ -72,9 +72,12 @@ fn hold_path(a: u32, quarter: u32, max_length: f32) {
             let at_b = along_bc - along_ab;
             let at_c = along_cd - along_bc;
             let at_d = along_de - along_cd;
-            let ends = places[a].w * dot(along_ab, along_ab) + places[e].w * dot(along_de, along_de);
-            let bends = (places[b].w * dot(at_b, at_b) + places[c].w * dot(at_c, at_c)) + places[d].w * dot(at_d, at_d);
-            let yielding = ends + bends;
+            // One after the other: Mesa adds up sums of sums in another order.
+            var yielding = places[a].w * dot(along_ab, along_ab);
+            yielding += places[b].w * dot(at_b, at_b);
+            yielding += places[c].w * dot(at_c, at_c);
+            yielding += places[d].w * dot(at_d, at_d);
+            yielding += places[e].w * dot(along_de, along_de);
             if yielding > 0.0 {
                 let pull = excess / yielding;
                 shift(a, along_ab * pull);

@@ -80,24 +80,19 @@ fn hold_chord(points: &mut [Point], [a, b]: [usize; 2], max_length: f32, dt: f32
 fn hold_path(points: &mut [Point], knots: [usize; 5], max_length: f32, dt: f32) {
     let chords = [0, 1, 2, 3].map(|k| points[knots[k + 1]].place - points[knots[k]].place);
     let squared = chords.map(Vec3::length_squared);
-    if 4.0 * ((squared[0] + squared[1]) + (squared[2] + squared[3])) <= max_length * max_length {
-        return;
-    }
+    // Four even chords with the same sum of squares are the longest path.
+    let can_be_longer = 4.0 * (squared[0] + squared[1] + squared[2] + squared[3]) > max_length * max_length;
     let lengths = squared.map(f32::sqrt);
-    let excess = ((lengths[0] + lengths[1]) + (lengths[2] + lengths[3])) - max_length;
-    if excess <= 0.0 {
-        return;
-    }
+    let excess = lengths[0] + lengths[1] + lengths[2] + lengths[3] - max_length;
     let direction = |k: usize| if lengths[k] > 0.0 { chords[k] / lengths[k] } else { Vec3::ZERO };
     let [first, second, third, fourth] = [0, 1, 2, 3].map(direction);
-    let ways = [first, second - first, third - second, fourth - third, fourth];
-    let yields = |k: usize| points[knots[k]].inverse_mass * ways[k].length_squared();
-    let yielding = (yields(0) + yields(4)) + ((yields(1) + yields(2)) + yields(3));
-    if yielding > 0.0 {
+    let ways = [first, second - first, third - second, fourth - third, -fourth];
+    let yields = knots.iter().zip(&ways).map(|(knot, way)| points[*knot].inverse_mass * way.length_squared());
+    let yielding = yields.reduce(|sum, part| sum + part).expect("a path has knots");
+    if can_be_longer && excess > 0.0 && yielding > 0.0 {
         let pull = excess / yielding;
-        for (knot, way) in knots.into_iter().zip(ways).take(4) {
+        for (knot, way) in knots.into_iter().zip(ways) {
             points[knot].shift(way * pull, dt);
         }
-        points[knots[4]].shift(fourth * -pull, dt);
     }
 }

@@ -11,6 +11,7 @@ mod sewing;
 mod shortening;
 mod statics;
 mod status;
+mod strands;
 mod support;
 mod time_step;
 mod wind;
