@@ -72,9 +72,9 @@ fn hold_path(a: u32, quarter: u32, max_length: f32) {
             let at_b = along_bc - along_ab;
             let at_c = along_cd - along_bc;
             let at_d = along_de - along_cd;
-            let ends = places[a].w * dot(along_ab, along_ab) + places[e].w * dot(along_de, along_de);
-            let bends = (places[b].w * dot(at_b, at_b) + places[c].w * dot(at_c, at_c)) + places[d].w * dot(at_d, at_d);
-            let yielding = ends + bends;
+            // A plain chain of products: Mesa regroups (p + q) + r where p and q are products and r is none.
+            let yielding = places[a].w * dot(along_ab, along_ab) + places[b].w * dot(at_b, at_b) + places[c].w * dot(at_c, at_c)
+                + places[d].w * dot(at_d, at_d) + places[e].w * dot(along_de, along_de);
             if yielding > 0.0 {
                 let pull = excess / yielding;
                 shift(a, along_ab * pull);

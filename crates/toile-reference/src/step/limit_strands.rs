@@ -80,19 +80,19 @@ fn hold_chord(points: &mut [Point], [a, b]: [usize; 2], max_length: f32, dt: f32
 fn hold_path(points: &mut [Point], knots: [usize; 5], max_length: f32, dt: f32) {
     let chords = [0, 1, 2, 3].map(|k| points[knots[k + 1]].place - points[knots[k]].place);
     let squared = chords.map(Vec3::length_squared);
-    if 4.0 * ((squared[0] + squared[1]) + (squared[2] + squared[3])) <= max_length * max_length {
+    if !(4.0 * ((squared[0] + squared[1]) + (squared[2] + squared[3])) > max_length * max_length) {
         return;
     }
     let lengths = squared.map(f32::sqrt);
     let excess = ((lengths[0] + lengths[1]) + (lengths[2] + lengths[3])) - max_length;
-    if excess <= 0.0 {
+    if !(excess > 0.0) {
         return;
     }
     let direction = |k: usize| if lengths[k] > 0.0 { chords[k] / lengths[k] } else { Vec3::ZERO };
     let [first, second, third, fourth] = [0, 1, 2, 3].map(direction);
     let ways = [first, second - first, third - second, fourth - third, fourth];
     let yields = |k: usize| points[knots[k]].inverse_mass * ways[k].length_squared();
-    let yielding = (yields(0) + yields(4)) + ((yields(1) + yields(2)) + yields(3));
+    let yielding = yields(0) + yields(1) + yields(2) + yields(3) + yields(4);
     if yielding > 0.0 {
         let pull = excess / yielding;
         for (knot, way) in knots.into_iter().zip(ways).take(4) {
