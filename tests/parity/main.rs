@@ -5,5 +5,6 @@ mod garments;
 mod kernels;
 mod large;
 mod life;
+mod rounding;
 mod saboteur;
 mod sheets;

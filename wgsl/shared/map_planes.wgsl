@@ -49,8 +49,7 @@ fn column_at(texel: vec2<i32>) -> Column {
 }
 
 // The texel that holds a place, and nothing seen where that is outside of the maps.
-fn column_under(place: vec3<f32>) -> Column {
-    let texels = texels_of(place);
+fn column_under(texels: vec2<f32>) -> Column {
     let column = floor(texels.x);
     let row = floor(texels.y);
     if !(column >= 0.0 && column < f32(map_frame.columns) && row >= 0.0 && row < f32(map_frame.rows)) {
@@ -60,70 +59,67 @@ fn column_under(place: vec3<f32>) -> Column {
 }
 
 // Where a place stands to the surfaces.
-fn standing(place: vec3<f32>) -> i32 {
-    let column = column_under(place);
+fn standing(texels: vec2<f32>, z: f32) -> i32 {
+    let column = column_under(texels);
     if !column.seen {
         return BESIDE;
     }
-    if place.z > column.front {
+    if z > column.front {
         return FRONT;
     }
-    if place.z < column.back {
+    if z < column.back {
         return BACK;
     }
     return INSIDE;
 }
 
-// A place moved to the centre of its texel: drivers round a place between two others each in their own way, but the centre is
-// the same.
-fn centred(place: vec3<f32>) -> vec3<f32> {
-    let texel = floor(texels_of(place)) + 0.5;
-    return vec3<f32>(
-        map_frame.origin_x + texel.x * map_frame.texel,
-        map_frame.origin_y - texel.y * map_frame.texel,
-        place.z,
-    );
-}
-
 // Where the way of a point enters a surface, and from which side; its end and INSIDE when it does not.
 struct Entry {
-    place: vec3<f32>,
+    texels: vec2<f32>,
+    z: f32,
     side: i32,
 }
 
-fn entry_of(start: vec3<f32>, end: vec3<f32>) -> Entry {
-    let unanswered = Entry(end, INSIDE);
+// `way` leads from start to end; drivers shorten (start + way) - start, so it comes from the caller.
+fn entry_of(start: vec3<f32>, way: vec3<f32>, end: vec3<f32>) -> Entry {
+    let start_texels = texels_of(start);
+    let end_texels = texels_of(end);
+    let unanswered = Entry(end_texels, end.z, INSIDE);
     if step.swept == 0u {
         return unanswered;
     }
-    var before = standing(start);
+    var before = standing(start_texels, start.z);
     if before == INSIDE {
         // It may lie on the surface: it must not leave by the other side.
-        let column = column_under(start);
-        let after = standing(end);
+        let column = column_under(start_texels);
+        let after = standing(end_texels, end.z);
         let near_front = column.front - start.z <= start.z - column.back;
         if near_front && after == BACK {
-            return Entry(start, FRONT);
+            return Entry(start_texels, start.z, FRONT);
         }
         if !near_front && after == FRONT {
-            return Entry(start, BACK);
+            return Entry(start_texels, start.z, BACK);
         }
         return unanswered;
     }
-    let way = end - start;
     let places = clamp(ceil(length(way.xy) / map_frame.texel), 1.0, WAY_PLACES);
     for (var k = 1.0; k <= places; k += 1.0) {
-        var place = end;
+        var texels = end_texels;
+        var z = end.z;
         if k < places {
-            place = centred(start + way * (k / places));
+            let place = start + way * (k / places);
+            // The centre of its texel, in texels: in metres and back it would lie a rounding error beside it, on either side of
+            // the border between the four texels that look() blends and the next four.
+            texels = floor(texels_of(place)) + 0.5;
+            z = place.z;
         }
-        let now = standing(place);
+        let now = standing(texels, z);
         let through = (before == FRONT && now == BACK) || (before == BACK && now == FRONT);
         if now == INSIDE || through {
             if before == BESIDE {
-                return Entry(place, INSIDE);
+                return Entry(texels, z, INSIDE);
             }
-            return Entry(place, before);
+            return Entry(texels, z, before);
         }
         before = now;
     }
@@ -138,8 +134,8 @@ fn plane_at(point: vec3<f32>, entry: Entry, column: f32, row: f32) -> Probe {
         return Probe();
     }
     let reach = REACH * map_frame.texel;
-    let behind_front = entry.place.z < seen.front + reach || entry.side == BACK;
-    let before_back = entry.place.z > seen.back - reach || entry.side == FRONT;
+    let behind_front = entry.z < seen.front + reach || entry.side == BACK;
+    let before_back = entry.z > seen.back - reach || entry.side == FRONT;
     if !(behind_front && before_back) {
         return Probe();
     }
@@ -158,12 +154,13 @@ fn plane_at(point: vec3<f32>, entry: Entry, column: f32, row: f32) -> Probe {
 }
 
 fn look(point: vec3<f32>, velocity: vec3<f32>) -> Probe {
-    let next = point + velocity * step.dt;
+    let coming = velocity * step.dt;
+    let next = point + coming;
     let surface_drift = drift(next, velocity);
-    let entry = entry_of(point + surface_drift * start_lag(), next + surface_drift * end_lag());
-    let texels = texels_of(entry.place);
-    let across = texels.x - 0.5;
-    let down = texels.y - 0.5;
+    let way = coming + surface_drift * (end_lag() - start_lag());
+    let entry = entry_of(point + surface_drift * start_lag(), way, next + surface_drift * end_lag());
+    let across = entry.texels.x - 0.5;
+    let down = entry.texels.y - 0.5;
     let left = floor(across);
     let top = floor(down);
     if !(left >= 0.0 && left + 1.0 < f32(map_frame.columns) && top >= 0.0 && top + 1.0 < f32(map_frame.rows)) {

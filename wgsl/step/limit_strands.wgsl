@@ -72,7 +72,7 @@ fn hold_path(a: u32, quarter: u32, max_length: f32) {
             let at_b = along_bc - along_ab;
             let at_c = along_cd - along_bc;
             let at_d = along_de - along_cd;
-            // One after the other: Mesa adds up sums of sums in another order.
+            // One after the other: Mesa regroups (p + q) + r where p and q are products and r is none.
             var yielding = places[a].w * dot(along_ab, along_ab);
             yielding += places[b].w * dot(at_b, at_b);
             yielding += places[c].w * dot(at_c, at_c);

@@ -25,12 +25,13 @@ fn surface_velocity(texel: vec2<i32>, side: i32) -> vec3<f32> {
 
 // How the surface near a point moves: where the point lies on it now, it will not lie in the maps.
 fn drift(next: vec3<f32>, velocity: vec3<f32>) -> vec3<f32> {
-    let column = column_under(next);
+    let texels = texels_of(next);
+    let column = column_under(texels);
     if !column.seen {
         // A cloth that is carried along goes the way of its surface.
         return velocity;
     }
-    let texel = vec2<i32>(floor(texels_of(next)));
+    let texel = vec2<i32>(floor(texels));
     if abs(next.z - column.front) <= abs(next.z - column.back) {
         return surface_velocity(texel, FRONT);
     }

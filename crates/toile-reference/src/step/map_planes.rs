@@ -3,7 +3,7 @@
 use crate::maps::BodyMaps;
 use crate::{Lag, Probe};
 use glam::{Vec3, vec3};
-use toile_model::{MapFrame, StepSettings};
+use toile_model::StepSettings;
 
 /// How far in front of a surface its texels still answer, in texels: on a slope the plane through a texel's centre reaches
 /// out of the depth range of the texel.
@@ -54,6 +54,23 @@ struct Texel {
     back: f32,
 }
 
+/// A place in the maps.
+#[derive(Clone, Copy)]
+struct Place {
+    /// From their left and upper border, in texels.
+    texels: [f32; 2],
+    /// [m]
+    z: f32,
+}
+
+impl Place {
+    /// Moved to the centre of its texel. In metres and back it would lie a rounding error beside it, on either side of the border
+    /// between the four texels that are blended and the next four.
+    fn centred(self) -> Self {
+        Self { texels: self.texels.map(|texels| texels.floor() + 0.5), ..self }
+    }
+}
+
 struct View<'a> {
     maps: &'a BodyMaps,
     lag: Lag,
@@ -63,10 +80,12 @@ struct View<'a> {
 impl View<'_> {
     fn look(&self, position: Vec3, velocity: Vec3, dt: f32) -> Option<Probe> {
         let frame = &self.maps.frame;
-        let next = position + velocity * dt;
+        let coming = velocity * dt;
+        let next = position + coming;
         let drift = self.drift(next, velocity);
-        let (place, side) = self.entry(position + drift * self.lag.start, next + drift * self.lag.end);
-        let [across, down] = texels(frame, place).map(|texels| texels - 0.5);
+        let way = coming + drift * (self.lag.end - self.lag.start);
+        let (place, side) = self.entry(position + drift * self.lag.start, way, next + drift * self.lag.end);
+        let [across, down] = place.texels.map(|texels| texels - 0.5);
         let [left, top] = [across.floor(), down.floor()];
         if !(left >= 0.0 && left + 1.0 < frame.columns as f32 && top >= 0.0 && top + 1.0 < frame.rows as f32) {
             return None;
@@ -78,7 +97,7 @@ impl View<'_> {
             (left, top + 1.0, (1.0 - right_share) * bottom_share),
             (left + 1.0, top + 1.0, right_share * bottom_share),
         ];
-        let planes = corners.map(|(column, row, _)| self.plane(position, place, side, column, row));
+        let planes = corners.map(|(column, row, _)| self.plane(position, place.z, side, column, row));
         let mut nearest = -1e9;
         for plane in planes.iter().filter(|plane| plane.hit) {
             nearest = plane.distance.max(nearest);
@@ -110,33 +129,35 @@ impl View<'_> {
     /// Velocity of the surface near a place; that of the point itself where the maps show none.
     fn drift(&self, next: Vec3, velocity: Vec3) -> Vec3 {
         let Some(layers) = &self.maps.velocities else { return Vec3::ZERO };
-        match self.texel_under(next) {
+        match self.texel_under(self.place(next).texels) {
             None => velocity,
             Some(texel) if (next.z - texel.front).abs() <= (next.z - texel.back).abs() => layers[0][texel.index],
             Some(texel) => layers[1][texel.index],
         }
     }
 
-    /// Where a way enters a surface, and from which side; its end and `Inside` when it does not.
-    fn entry(&self, start: Vec3, end: Vec3) -> (Vec3, Standing) {
+    /// Where a way enters a surface, and from which side; its end and `Inside` when it does not. `way` leads from start to end; a
+    /// device may shorten (start + way) - start, so it comes from the caller.
+    fn entry(&self, start: Vec3, way: Vec3, end: Vec3) -> (Place, Standing) {
+        let last = self.place(end);
         if !self.swept {
-            return (end, Standing::Inside);
+            return (last, Standing::Inside);
         }
-        let mut before = self.standing(start);
-        if let (Standing::Inside, Some(texel)) = (before, self.texel_under(start)) {
+        let first = self.place(start);
+        let mut before = self.standing(first);
+        if let (Standing::Inside, Some(texel)) = (before, self.texel_under(first.texels)) {
             // It may lie on the surface: it must not leave by the other side.
             let near_front = texel.front - start.z <= start.z - texel.back;
-            return match self.standing(end) {
-                Standing::Behind if near_front => (start, Standing::InFront),
-                Standing::InFront if !near_front => (start, Standing::Behind),
-                _ => (end, Standing::Inside),
+            return match self.standing(last) {
+                Standing::Behind if near_front => (first, Standing::InFront),
+                Standing::InFront if !near_front => (first, Standing::Behind),
+                _ => (last, Standing::Inside),
             };
         }
-        let way = end - start;
         let places = (way.truncate().length() / self.maps.frame.texel).ceil().clamp(1.0, WAY_PLACES);
         let mut k = 1.0;
         while k <= places {
-            let place = if k < places { self.centred(start + way * (k / places)) } else { end };
+            let place = if k < places { self.place(start + way * (k / places)).centred() } else { last };
             let now = self.standing(place);
             match (before, now) {
                 (Standing::Beside, Standing::Inside) => return (place, Standing::Inside),
@@ -146,19 +167,17 @@ impl View<'_> {
             }
             k += 1.0;
         }
-        (end, Standing::Inside)
+        (last, Standing::Inside)
     }
 
-    /// A place moved to the centre of its texel: then a place between two others, which a device may round in its own way, gives
-    /// the same bits everywhere.
-    fn centred(&self, place: Vec3) -> Vec3 {
+    fn place(&self, point: Vec3) -> Place {
         let frame = &self.maps.frame;
-        let [column, row] = texels(frame, place).map(|texels| texels.floor() + 0.5);
-        vec3(frame.origin_x + column * frame.texel, frame.origin_y - row * frame.texel, place.z)
+        let texels = [(point.x - frame.origin_x) / frame.texel, (frame.origin_y - point.y) / frame.texel];
+        Place { texels, z: point.z }
     }
 
-    fn standing(&self, place: Vec3) -> Standing {
-        match self.texel_under(place) {
+    fn standing(&self, place: Place) -> Standing {
+        match self.texel_under(place.texels) {
             None => Standing::Beside,
             Some(texel) if place.z > texel.front => Standing::InFront,
             Some(texel) if place.z < texel.back => Standing::Behind,
@@ -167,9 +186,9 @@ impl View<'_> {
     }
 
     /// The texel that holds a place, where it shows a surface.
-    fn texel_under(&self, place: Vec3) -> Option<Texel> {
+    fn texel_under(&self, texels: [f32; 2]) -> Option<Texel> {
         let frame = &self.maps.frame;
-        let [column, row] = texels(frame, place).map(f32::floor);
+        let [column, row] = texels.map(f32::floor);
         if !(column >= 0.0 && column < frame.columns as f32 && row >= 0.0 && row < frame.rows as f32) {
             return None;
         }
@@ -186,21 +205,21 @@ impl View<'_> {
     }
 
     /// What one texel says to a point at `position`: the plane through the texel's centre on the entered or nearer side.
-    fn plane(&self, position: Vec3, place: Vec3, side: Standing, column: f32, row: f32) -> Probe {
+    fn plane(&self, position: Vec3, z: f32, side: Standing, column: f32, row: f32) -> Probe {
         let frame = &self.maps.frame;
         let Some(texel) = self.texel(column, row) else { return Probe::default() };
         let reach = REACH * frame.texel;
-        let reaches_front = place.z < texel.front + reach || side == Standing::Behind;
-        let reaches_back = place.z > texel.back - reach || side == Standing::InFront;
+        let reaches_front = z < texel.front + reach || side == Standing::Behind;
+        let reaches_back = z > texel.back - reach || side == Standing::InFront;
         if !(reaches_front && reaches_back) {
             return Probe::default();
         }
         let x = frame.origin_x + (column + 0.5) * frame.texel;
         let y = frame.origin_y - (row + 0.5) * frame.texel;
-        let seen = [(0, texel.front), (1, texel.back)].map(|(layer, z)| {
+        let seen = [(0, texel.front), (1, texel.back)].map(|(layer, depth)| {
             let normal = self.maps.normals[layer][texel.index];
             let velocity = self.maps.velocities.as_ref().map_or(Vec3::ZERO, |layers| layers[layer][texel.index]);
-            let distance = normal.dot((position + velocity * self.lag.start) - vec3(x, y, z));
+            let distance = normal.dot((position + velocity * self.lag.start) - vec3(x, y, depth));
             Probe { normal, distance, velocity, hit: true }
         });
         let front = match side {
@@ -210,9 +229,4 @@ impl View<'_> {
         };
         seen[usize::from(!front)]
     }
-}
-
-/// Place in the maps, in texels from their left and upper border.
-fn texels(frame: &MapFrame, place: Vec3) -> [f32; 2] {
-    [(place.x - frame.origin_x) / frame.texel, (frame.origin_y - place.y) / frame.texel]
 }

@@ -1,0 +1,78 @@
+//! Where the last bit decides: a device that works in another order than the reference would give another answer.
+
+use crate::kernels::{difference, input};
+use glam::{Vec2, Vec3, vec3};
+use toile_kernels::Kernel;
+use toile_model::Strand;
+use toile_report::Random;
+use toile_report::kernels::{Compiled, Input, Variant};
+use toile_workspace::gpu;
+
+fn agrees(kernel: Kernel, input: &Input) {
+    let compiled = Compiled::new(gpu(), kernel, &kernel.source()).expect("the kernel compiles");
+    assert_eq!(difference(&compiled, kernel, input), None, "{}", kernel.name());
+}
+
+/// Particles that dive into the surfaces; the middle of the way of each lies on a corner of four texels, as exactly as its start can be
+/// written.
+fn dive_through_corners(kernel: Kernel) -> Input {
+    let mut input = input(kernel, 1757, Variant::Coulomb);
+    let random = &mut Random::new(1);
+    let (maps, dt) = (&input.layers.read, input.settings.dt);
+    let frame = maps.frame;
+    let seen: Vec<usize> = (0..maps.depth[0].len()).filter(|texel| maps.depth[0][*texel] < 1.0).collect();
+    for (position, velocity) in input.particles.positions.iter_mut().zip(&mut input.particles.velocities) {
+        let texel = seen[random.below(seen.len() as u32) as usize];
+        let columns = frame.columns as usize;
+        let corner = Vec2::new((texel % columns) as f32, (texel / columns) as f32) * frame.texel;
+        let surface = frame.z_front - maps.depth[0][texel] * (frame.z_front - frame.z_back);
+        let middle = vec3(frame.origin_x + corner.x, frame.origin_y - corner.y, surface - 0.2 * frame.texel);
+        // Longer than one texel and at most two: the middle is the one place that is tested before the end.
+        let sideways = random.between(0.8, 1.1) * frame.texel;
+        let across = if random.one_in(2) { sideways } else { -sideways };
+        let way = vec3(across, random.between(0.8, 1.1) * frame.texel, random.between(-4.0, -1.0) * frame.texel);
+        *position = middle - way * 0.5;
+        *velocity = way / dt;
+    }
+    input
+}
+
+#[test]
+fn ways_over_the_corners_of_texels_agree() {
+    agrees(Kernel::SampleMaps, &dive_through_corners(Kernel::SampleMaps));
+    agrees(Kernel::SampleMovingMaps, &dive_through_corners(Kernel::SampleMovingMaps));
+}
+
+/// Strands like those of worn cloth: almost straight, a little too long, and of uneven masses.
+fn worn_strands() -> Input {
+    const COUNT: u32 = 9;
+    let mut input = input(Kernel::LimitStrands, 200, Variant::Coulomb);
+    let random = &mut Random::new(2);
+    let count = COUNT * input.span.len() as u32;
+    let first = input.span.start;
+    input.particles.velocities.fill(Vec3::ZERO);
+    input.strand_particles = (0..count).collect();
+    input.strand_lengths.clear();
+    input.strands = (0..input.span.end)
+        .map(|k| {
+            let start = k.saturating_sub(first) * COUNT;
+            let lengths = input.strand_lengths.len() as u32;
+            for level in 0..4 {
+                let reach = 1 << level;
+                input.strand_lengths.extend((reach..COUNT).map(|_| 0.03 * reach as f32));
+            }
+            Strand { particles: start..start + COUNT, lengths, level_count: 4 }
+        })
+        .collect();
+    for i in 0..count as usize {
+        let along = 0.0303 * (i % COUNT as usize) as f32;
+        input.particles.positions[i] = vec3(along, 0.9, -0.1) + random.vector(0.002);
+        input.particles.inverse_masses[i] = random.between(5e3, 15e3);
+    }
+    input
+}
+
+#[test]
+fn strands_of_worn_cloth_agree() {
+    agrees(Kernel::LimitStrands, &worn_strands());
+}
