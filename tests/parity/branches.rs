@@ -101,7 +101,7 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
             assert_eq!(both(&|i| pinned(i) && changed(i)), 0, "pins stay");
             let strands = before.colour_strands();
             see("has one level", strands.iter().filter(|s| s.level_count == 1).count());
-            see("has many levels", strands.iter().filter(|s| s.level_count > 4).count());
+            see("has many levels", strands.iter().filter(|s| s.level_count > 3).count());
             see("is longer than a workgroup", strands.iter().filter(|s| s.particles.len() > 64).count());
         }
         Kernel::LimitAttachments => {

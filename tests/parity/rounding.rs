@@ -15,8 +15,8 @@ fn agrees(kernel: Kernel, input: &Input) {
 
 /// Particles that dive into the surfaces; the middle of the way of each lies on a corner of four texels, as exactly as its start can be
 /// written.
-fn dive_through_corners(kernel: Kernel) -> Input {
-    let mut input = input(kernel, 1757, Variant::Coulomb);
+fn dive_through_corners() -> Input {
+    let mut input = input(Kernel::SampleMaps, 1757, Variant::Coulomb);
     let random = &mut Random::new(1);
     let (maps, dt) = (&input.layers.read, input.settings.dt);
     let frame = maps.frame;
@@ -39,8 +39,7 @@ fn dive_through_corners(kernel: Kernel) -> Input {
 
 #[test]
 fn ways_over_the_corners_of_texels_agree() {
-    agrees(Kernel::SampleMaps, &dive_through_corners(Kernel::SampleMaps));
-    agrees(Kernel::SampleMovingMaps, &dive_through_corners(Kernel::SampleMovingMaps));
+    agrees(Kernel::SampleMaps, &dive_through_corners());
 }
 
 /// Strands like those of worn cloth: almost straight, a little too long, and of uneven masses.
@@ -57,11 +56,11 @@ fn worn_strands() -> Input {
         .map(|k| {
             let start = k.saturating_sub(first) * COUNT;
             let lengths = input.strand_lengths.len() as u32;
-            for level in 0..4 {
+            for level in 1..4 {
                 let reach = 1 << level;
                 input.strand_lengths.extend((reach..COUNT).map(|_| 0.03 * reach as f32));
             }
-            Strand { particles: start..start + COUNT, lengths, level_count: 4 }
+            Strand { particles: start..start + COUNT, lengths, level_count: 3 }
         })
         .collect();
     for i in 0..count as usize {

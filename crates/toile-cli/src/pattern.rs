@@ -10,7 +10,7 @@ use layout::Layout;
 use legend::Counts;
 use std::collections::BTreeSet;
 use std::fmt::{Arguments, Write};
-use toile::model::{Limit, Merge, Model, NO_CORNER, SpringKind, Strand};
+use toile::model::{Limit, Merge, Model, NO_CORNER, SpringKind, Strand, path_chord};
 use toile_report::page::escaped;
 
 /// Golden section: the long limits of neighbouring strands do not lie beside each other.
@@ -193,15 +193,15 @@ impl Drawing<'_> {
     }
 }
 
-/// One of the longest limits of a strand, along the strand where it counts the way, straight where it counts the distance.
+/// One of the longest limits of a strand, along the strand where it counts the way, in straight chords where it counts distances.
 fn long_limit(cloth: &Model, strand: &Strand, steps: &[[u32; 2]], index: u32) -> Vec<[u32; 2]> {
-    let reach = 1_usize << (strand.level_count - 1);
+    let reach = 1_usize << strand.level_count;
     let first = ((f64::from(index) * SPREAD).fract() * (steps.len() + 1 - reach) as f64) as usize;
     let length = |level: u32, k: usize| cloth.strand_lengths[strand.lengths_from(level) as usize + k];
-    let way: f32 = (first..first + reach).map(|k| length(0, k)).sum();
+    let way: f32 = (first..first + reach).step_by(2).map(|k| length(1, k)).sum();
     let along = &steps[first..first + reach];
-    if length(strand.level_count - 1, first) < way * (1.0 - 1e-5) {
-        vec![[along[0][0], along[reach - 1][1]]]
+    if length(strand.level_count, first) < way * (1.0 - 1e-5) {
+        along.chunks(path_chord(reach)).map(|chord| [chord[0][0], chord[chord.len() - 1][1]]).collect()
     } else {
         along.to_vec()
     }

@@ -90,7 +90,7 @@ pub struct Strand {
     pub count: u32,
     /// First of its maximum lengths.
     pub lengths: u32,
-    /// Number of levels.
+    /// Number of levels: limits over 2, 4, 8… edges.
     pub level_count: u32,
 }
 

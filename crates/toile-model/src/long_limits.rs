@@ -39,9 +39,9 @@ impl Model {
                     lengths: self.strand_lengths.len() as u32,
                     level_count: 0,
                 };
-                let mut cells = 1;
+                let mut cells = 2;
                 while cells <= cells_max.min(line.particles.len() - 1) {
-                    let chord = path_chord(strand.level_count);
+                    let chord = path_chord(cells);
                     let spans = cloth.spans(line, chord, &rims);
                     let lengths: Vec<f32> =
                         spans.iter().map(|span| stretched(span.length as f32, aim * span.threshold as f32)).collect();
@@ -70,11 +70,11 @@ impl Model {
         self.limits.iter().filter(move |limit| on_strands.binary_search(&limit.ends).is_err())
     }
 
-    /// Every limit along every strand, strand by strand, from single cells to the longest: its two particles and its maximum length [m].
+    /// Every limit along every strand, strand by strand, from those over two edges to the longest: its two particles and its maximum length [m].
     pub fn strand_limits(&self) -> impl Iterator<Item = ([u32; 2], f32)> {
         self.strands.iter().flat_map(move |strand| {
             let particles = &self.strand_particles[strand.particles.start as usize..strand.particles.end as usize];
-            (0..strand.level_count).flat_map(move |level| {
+            (1..=strand.level_count).flat_map(move |level| {
                 let reach = 1 << level;
                 let lengths = &self.strand_lengths[strand.lengths_from(level) as usize..];
                 particles
@@ -92,14 +92,13 @@ impl Strand {
     /// apart, after those of the levels below.
     pub fn lengths_from(&self, level: u32) -> u32 {
         let count = self.particles.end - self.particles.start;
-        self.lengths + level * count - ((1 << level) - 1)
+        self.lengths + (level - 1) * count - ((1 << level) - 2)
     }
 }
 
-/// Edges that one chord of a limit spans, at a level of a strand: limits over four edges and more go along a path of four chords, shorter
-/// ones along one.
-pub fn path_chord(level: u32) -> usize {
-    let edges = 1 << level;
+/// Edges that one chord of a limit over so many edges of a strand spans: over four edges and more it goes along a path of four chords,
+/// over two along one.
+pub fn path_chord(edges: usize) -> usize {
     if edges < PATH_CHORDS { edges } else { edges / PATH_CHORDS }
 }
 

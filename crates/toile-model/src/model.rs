@@ -119,15 +119,14 @@ pub struct Limit {
     pub max_length: f32,
 }
 
-/// A line of cloth that goes straight on from particle to particle, with limits on each of its edges and between particles that
-/// are 2, 4, 8… edges apart: level k has those of 2^k edges.
+/// A line of cloth that goes straight on from particle to particle, with limits over 2, 4, 8… of its edges: its levels, from 1 on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Strand {
     /// Where its particles stand in [`Model::strand_particles`]: at most 512, none twice.
     pub particles: Range<u32>,
     /// Where its lengths begin in [`Model::strand_lengths`]; see [`Strand::lengths_from`].
     pub lengths: u32,
-    /// Number of levels, at least 1.
+    /// The highest level, that of the limits over 2^level_count edges; at least 1.
     pub level_count: u32,
 }
 

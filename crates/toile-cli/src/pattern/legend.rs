@@ -25,7 +25,7 @@ impl Counts {
         let strand = |direction: &str| self.strands.get(direction).copied().unwrap_or(0);
         let all: usize = self.strands.values().sum();
         let rows = [
-            ("strand warp", strand("warp"), "strands along the warp: limits on every edge and over 2, 4, 8… edges"),
+            ("strand warp", strand("warp"), "strands along the warp: limits over 2, 4, 8… edges"),
             ("strand weft", strand("weft"), "strands along the weft"),
             ("strand diagonal", strand("diagonal"), "strands along diagonals"),
             ("long warp", all, "long limits, one of each strand"),
