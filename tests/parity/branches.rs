@@ -83,9 +83,25 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
             };
             see("closes within the step", before.colour_pairs().iter().filter(shut).count());
         }
-        Kernel::LimitZero | Kernel::LimitAverage | Kernel::LimitPredictive | Kernel::LimitPosition => {
-            let pairs: Vec<_> = before.colour_limits().iter().map(|l| l.ends.map(|end| end as usize)).collect();
-            ends(&pairs, before, after, &mut see);
+        Kernel::LimitZero | Kernel::LimitAverage | Kernel::LimitPosition => {
+            ends(&limit_ends(before), before, after, &mut see);
+        }
+        Kernel::LimitPredictive => {
+            ends(&limit_ends(before), before, after, &mut see);
+            let impulses = || before.limit_impulses[before.colour()].iter().zip(&after.limit_impulses[before.colour()]);
+            see("begins to pull", impulses().filter(|(old, new)| **old == 0.0 && **new > 0.0).count());
+            see("pulls more", impulses().filter(|(old, new)| **old > 0.0 && new > old).count());
+            see("takes a part back", impulses().filter(|(old, new)| **new > 0.0 && new < old).count());
+            see("takes all back", impulses().filter(|(old, new)| **old > 0.0 && **new == 0.0).count());
+            see("never pulled", impulses().filter(|(old, new)| **old == 0.0 && **new == 0.0).count());
+            assert!(impulses().all(|(_, new)| *new >= 0.0), "a limit never pushes");
+        }
+        Kernel::WarmStart => {
+            ends(&limit_ends(before), before, after, &mut see);
+            let impulses = || before.limit_impulses[before.colour()].iter().zip(&after.limit_impulses[before.colour()]);
+            see("has no impulse", impulses().filter(|(old, _)| **old == 0.0).count());
+            see("goes on", impulses().filter(|(old, new)| **old > 0.0 && **new == 0.5 * **old).count());
+            see("has no direction any more", impulses().filter(|(old, new)| **old > 0.0 && **new == 0.0).count());
         }
         Kernel::LimitStrands => {
             let pairs: Vec<_> = before.strand_limits().iter().map(|ends| ends.map(|end| end as usize)).collect();
@@ -210,6 +226,11 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
     }
 }
 
+/// Both ends of each limit of the colour.
+fn limit_ends(before: &Input) -> Vec<[usize; 2]> {
+    before.colour_limits().iter().map(|limit| limit.ends.map(|end| end as usize)).collect()
+}
+
 /// Both ends of limits or seam pairs.
 fn ends(pairs: &[[usize; 2]], before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize)) {
     let [old, new] = [&before.particles, &after.particles];
@@ -235,7 +256,7 @@ fn ends(pairs: &[[usize; 2]], before: &Input, after: &Input, see: &mut impl FnMu
 }
 
 fn directional(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize)) {
-    let pairs: Vec<_> = before.colour_limits().iter().map(|l| l.ends.map(|end| end as usize)).collect();
+    let pairs = limit_ends(before);
     let [old, new] = [&before.particles, &after.particles];
     let moved = |i: usize| old.velocities[i] != new.velocities[i] && old.velocities[i].is_finite();
     let free = |i: usize| old.inverse_masses[i] > 0.0;

@@ -1,5 +1,5 @@
 // Rule Predictive: what would make a spring over-long in the coming move is removed from the velocities of its ends, by
-// inverse mass. One colour per dispatch.
+// inverse mass. What a limit has pulled in the step it may take back, and no more: it never pushes. One colour per dispatch.
 #import shared/item
 #import shared/step_params
 #import shared/span
@@ -8,6 +8,7 @@
 @group(0) @binding(2) var<storage, read> limits: array<Limit>;
 @group(0) @binding(3) var<storage, read> positions: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read_write> velocities: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> limit_impulses: array<f32>;
 
 @compute @workgroup_size(64)
 fn limit_predictive(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
@@ -26,9 +27,11 @@ fn limit_predictive(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_w
     let velocity_b = velocities[limit.second];
     let predicted = (b.xyz - a.xyz) + (velocity_b.xyz - velocity_a.xyz) * step.dt;
     let predicted_length = length(predicted);
-    if predicted_length > limit.max_length {
-        let change = predicted
-            * ((predicted_length - limit.max_length) / ((predicted_length * step.dt) * inverse_mass_sum));
+    let pulled = limit_impulses[span.first + i];
+    let pull = max((predicted_length - limit.max_length) / (step.dt * inverse_mass_sum), -pulled);
+    if predicted_length > 0.0 && pull != 0.0 {
+        limit_impulses[span.first + i] = pulled + pull;
+        let change = predicted * (pull / predicted_length);
         velocities[limit.first] = vec4<f32>(velocity_a.xyz + change * a.w, velocity_a.w);
         velocities[limit.second] = vec4<f32>(velocity_b.xyz - change * b.w, velocity_b.w);
     }

@@ -156,6 +156,8 @@ fn contents(name: &str, model: &Model, settings: &StepSettings, plan: &Plan) -> 
             };
             array(model.limits.iter().map(limit).collect())
         }
+        // Whole vec4, as contacts are: what a simulation goes on from is read and written by these.
+        "limit_impulses" => Contents::Zeros(4 * (model.limits.len() as u64).next_multiple_of(4)),
         "strands" => {
             let strand = |s: &toile_model::Strand| structs::Strand {
                 first: s.particles.start,

@@ -169,7 +169,10 @@ fn passes(row: &Row, model: &Model, settings: &StepSettings) -> Vec<Pass> {
         Domain::Point => all(model.particle_count() + model.quad_count()),
         Domain::Hold => all(model.holds.len() as u32),
         Domain::Limit => all(model.limits.len() as u32),
-        Domain::LimitColour => (0..settings.limit_passes()).flat_map(|_| coloured(&model.limit_colours)).collect(),
+        Domain::LimitColour => {
+            let turns = if row.stage == Stage::Sweep { settings.limit_passes() } else { 1 };
+            (0..turns).flat_map(|_| coloured(&model.limit_colours)).collect()
+        }
         Domain::StrandColour => coloured(&model.strand_colours),
         Domain::SeamPair => all(model.seam_pair_count()),
         Domain::SeamColour => coloured(&model.seam_colours),

@@ -254,6 +254,11 @@ impl Solver {
         self.buffers.find("contacts")
     }
 
+    /// What each limit pulled with in the last step [N·s], f32 each, zeros up to a whole vec4; `None` unless the rule is predictive.
+    pub fn limit_impulses(&self) -> Option<&wgpu::Buffer> {
+        self.buffers.find("limit_impulses")
+    }
+
     /// The passes of a step and of a frame.
     pub fn plan(&self) -> &Plan {
         &self.plan

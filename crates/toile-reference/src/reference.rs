@@ -66,6 +66,8 @@ pub struct Reference {
     particles: Particles,
     /// Contacts of the last step, shape [particle_count]; empty without body.
     contacts: Vec<Contact>,
+    /// What each limit pulled with in the last step [N·s], shape [limit_count].
+    limit_impulses: Vec<f32>,
     polish: PolishState,
     step: u64,
 }
@@ -78,6 +80,7 @@ impl Reference {
         Self {
             particles: Particles::new(model),
             contacts: vec![Contact::default(); contact_count],
+            limit_impulses: vec![0.0; model.limits.len()],
             model: model.clone(),
             settings: settings.clone(),
             colliders,
@@ -86,8 +89,8 @@ impl Reference {
         }
     }
 
-    /// The handover: the same state in the sewn model, whose particles `merge` makes from those of this one. Contacts start
-    /// and what a polish counts start anew; the number of steps and with it the time go on.
+    /// The handover: the same state in the sewn model, whose particles `merge` makes from those of this one. Contacts,
+    /// impulses of limits and what a polish counts start anew; the number of steps and with it the time go on.
     pub fn sewn(self, model: &Model, settings: &StepSettings, merge: &Merge) -> Self {
         let mut sewn = Self::new(model, settings, self.colliders);
         frame::merge_particles(&self.particles, &merge.members, &mut sewn.particles);
@@ -132,6 +135,12 @@ impl Reference {
         step::euler(&mut particles.velocities, &forces, &particles.inverse_masses, dt);
         if settings.hold_rate > 0.0 {
             step::hold_edges(particles, &model.holds, &model.held_particles, settings);
+        }
+        if settings.sweeps > 0 && matches!(settings.rule, Rule::Predictive | Rule::Hierarchical) {
+            for colour in &model.limit_colours {
+                let impulses = part_mut(&mut self.limit_impulses, colour);
+                step::warm_start(particles, part(&model.limits, colour), impulses, dt);
+            }
         }
         for _ in 0..self.settings.sweeps.max(1) {
             self.sweep(lag);
@@ -179,7 +188,7 @@ impl Reference {
 
     /// One sweep over all limits, colour by colour; under the hierarchical rule from pins outward, along strands, then single springs.
     fn sweep_velocities(&mut self) {
-        let Self { model, settings, particles, contacts, .. } = self;
+        let Self { model, settings, particles, contacts, limit_impulses, .. } = self;
         let contacts = (!contacts.is_empty()).then_some(contacts.as_slice());
         if settings.sweeps == 0 {
             return;
@@ -198,7 +207,9 @@ impl Reference {
                 Rule::Zero => step::limit_zero(particles, limits),
                 Rule::Average => step::limit_average(particles, limits),
                 Rule::Directional => step::limit_directional(particles, limits, contacts, settings),
-                Rule::Predictive | Rule::Hierarchical => step::limit_predictive(particles, limits, settings.dt),
+                Rule::Predictive | Rule::Hierarchical => {
+                    step::limit_predictive(particles, limits, part_mut(limit_impulses, colour), settings.dt);
+                }
             }
         }
     }
@@ -276,6 +287,12 @@ impl Reference {
         &self.contacts
     }
 
+    /// What each limit pulled with in the last step [N·s], shape [limit_count]; zeros unless the rule is [`Rule::Predictive`] or
+    /// [`Rule::Hierarchical`].
+    pub fn limit_impulses(&self) -> &[f32] {
+        &self.limit_impulses
+    }
+
     /// The state as a few rounded numbers, for snapshots that a reviewer can read.
     pub fn digest(&self) -> String {
         digest::digest(&self.model, &self.status(), &self.particles.positions, &self.contacts)
@@ -285,4 +302,8 @@ impl Reference {
 /// The items of a colour.
 fn part<'a, T>(items: &'a [T], colour: &Range<u32>) -> &'a [T] {
     &items[colour.start as usize..colour.end as usize]
+}
+
+fn part_mut<'a, T>(items: &'a mut [T], colour: &Range<u32>) -> &'a mut [T] {
+    &mut items[colour.start as usize..colour.end as usize]
 }

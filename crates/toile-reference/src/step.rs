@@ -22,6 +22,7 @@ mod sample_maps;
 mod sample_moving_maps;
 mod sample_sphere;
 mod spring_forces;
+mod warm_start;
 mod wind_forces;
 
 pub use close_seams::close_seams;
@@ -45,4 +46,5 @@ pub use sample_maps::sample_maps;
 pub use sample_moving_maps::sample_moving_maps;
 pub use sample_sphere::sample_sphere;
 pub use spring_forces::spring_forces;
+pub use warm_start::warm_start;
 pub use wind_forces::wind_forces;

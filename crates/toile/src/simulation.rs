@@ -178,6 +178,12 @@ impl Simulation {
         self.solver.contacts()
     }
 
+    /// What each limit pulled with in the last step [N·s], f32 each, zeros up to a whole vec4; `None` unless the rule is
+    /// [`Rule::Predictive`](toile_scene::Rule::Predictive) or [`Rule::Hierarchical`](toile_scene::Rule::Hierarchical).
+    pub fn limit_impulses(&self) -> Option<&wgpu::Buffer> {
+        self.solver.limit_impulses()
+    }
+
     /// Steps recorded so far.
     pub fn step(&self) -> u64 {
         self.solver.step()

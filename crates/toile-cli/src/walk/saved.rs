@@ -16,11 +16,12 @@ const FOLDER: &str = ".unfinished-walk";
 /// File that says which walk it is.
 const IDENTITY: &str = "identity.json";
 
-/// The state of a garment as the device holds it: three arrays of vec4.
+/// The state of a garment as the device holds it: arrays of vec4.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GarmentState {
-    /// Positions and inverse masses, velocities and masses, each of shape [particle_count]; contacts, two per particle.
-    arrays: [Vec<Vec4>; 3],
+    /// Positions and inverse masses, velocities and masses, each of shape [particle_count]; contacts, two per particle; what the limits
+    /// pulled with, four in each, or none where they have not pulled yet.
+    arrays: [Vec<Vec4>; 4],
 }
 
 impl GarmentState {
@@ -28,22 +29,29 @@ impl GarmentState {
     pub fn at_rest(positions: &[Vec3]) -> Self {
         let zeros = vec![Vec4::ZERO; positions.len()];
         let positions = positions.iter().map(|p| p.extend(0.0)).collect();
-        Self { arrays: [positions, zeros.clone(), [zeros.clone(), zeros].concat()] }
+        Self { arrays: [positions, zeros.clone(), [zeros.clone(), zeros].concat(), Vec::new()] }
     }
 
     /// Reads the state of a garment.
     pub fn download(gpu: &Gpu, simulation: &Simulation) -> Result<Self> {
         let contacts = simulation.contacts().context("a garment on a body has contacts")?;
         let read = |buffer| readback::read_vec4s(&gpu.device, &gpu.queue, buffer);
-        Ok(Self { arrays: [read(&simulation.frame().positions)?, read(simulation.velocities())?, read(contacts)?] })
+        let impulses = simulation.limit_impulses().map_or(Ok(Vec::new()), read)?;
+        Ok(Self {
+            arrays: [read(&simulation.frame().positions)?, read(simulation.velocities())?, read(contacts)?, impulses],
+        })
     }
 
     /// Writes it to the device; the masses are those of the model.
     pub fn upload(&self, gpu: &Gpu, simulation: &Simulation, model: &Model) -> Result<()> {
-        let [positions, velocities, contacts] = &self.arrays;
+        let [positions, velocities, contacts, impulses] = &self.arrays;
         let count = model.positions.len();
         if [positions.len(), velocities.len(), contacts.len()] != [count, count, 2 * count] {
             bail!("the saved walk has {} particles where the garment has {count}: start anew", positions.len());
+        }
+        let places = simulation.limit_impulses().filter(|_| !impulses.is_empty());
+        if places.is_some_and(|places| places.size() != 16 * impulses.len() as u64) {
+            bail!("the saved walk has other limits than the garment: start anew");
         }
         let with = |values: &[Vec4], w: &[f32]| -> Vec<Vec4> {
             values.iter().zip(w).map(|(value, w)| value.truncate().extend(*w)).collect()
@@ -54,6 +62,9 @@ impl GarmentState {
         write(&simulation.frame().positions, &with(positions, &model.inverse_masses));
         write(simulation.velocities(), &with(velocities, &model.masses));
         write(simulation.contacts().context("a garment on a body has contacts")?, contacts);
+        if let Some(places) = places {
+            write(places, impulses);
+        }
         Ok(())
     }
 
@@ -144,8 +155,8 @@ impl Saved {
         let mut states = Vec::new();
         let mut arrays = arrays.into_iter();
         while let Some(positions) = arrays.next() {
-            let [velocities, contacts] = [arrays.next().with_context(damaged)?, arrays.next().with_context(damaged)?];
-            states.push(GarmentState { arrays: [positions, velocities, contacts] });
+            let mut next = || arrays.next().with_context(damaged);
+            states.push(GarmentState { arrays: [positions, next()?, next()?, next()?] });
         }
         Ok(states)
     }

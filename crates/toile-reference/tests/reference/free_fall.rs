@@ -112,8 +112,14 @@ fn momentum_error(kernel: impl Fn(&mut Particles, &[toile_model::Limit])) -> (f6
 fn average_and_predictive_keep_momentum() {
     let (error, acted) = momentum_error(step::limit_average);
     assert!(acted && error < 1e-6, "average {error}");
-    let (error, acted) = momentum_error(|particles, limits| step::limit_predictive(particles, limits, 0.01));
+    let (error, acted) = momentum_error(|particles, limits| {
+        step::limit_predictive(particles, limits, &mut vec![0.0; limits.len()], 0.01);
+    });
     assert!(acted && error < 1e-6, "predictive {error}");
+    let (error, acted) = momentum_error(|particles, limits| {
+        step::warm_start(particles, limits, &mut vec![1e-4; limits.len()], 0.01);
+    });
+    assert!(acted && error < 1e-6, "warm start {error}");
 }
 
 #[test]
@@ -130,7 +136,7 @@ fn zero_and_directional_do_not_keep_momentum() {
 fn the_oracle_of_momentum_sees_a_flipped_sign() {
     let (error, _) = momentum_error(|particles, limits| {
         let before = particles.clone();
-        step::limit_predictive(particles, limits, 0.01);
+        step::limit_predictive(particles, limits, &mut vec![0.0; limits.len()], 0.01);
         for limit in limits {
             let b = limit.ends[1] as usize;
             particles.velocities[b] = before.velocities[b] * 2.0 - particles.velocities[b];

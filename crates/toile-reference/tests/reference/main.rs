@@ -14,4 +14,5 @@ mod status;
 mod strands;
 mod support;
 mod time_step;
+mod warm_start;
 mod wind;

@@ -136,7 +136,9 @@ const KERNELS: [(&str, Kernel); 7] = [
     ("average", |model, particles, _| step::limit_average(particles, &model.limits)),
     ("directional", |model, particles, step| step::limit_directional(particles, &model.limits, None, step)),
     ("position", |model, particles, _| step::limit_position(particles, &model.limits)),
-    ("predictive", |model, particles, step| step::limit_predictive(particles, &model.limits, step.dt)),
+    ("predictive", |model, particles, step| {
+        step::limit_predictive(particles, &model.limits, &mut vec![0.0; model.limits.len()], step.dt);
+    }),
     ("strands", |model, particles, step| {
         let (line, lengths) = (&model.strand_particles, &model.strand_lengths);
         step::limit_strands(particles, &model.strands, line, lengths, step.dt);

@@ -33,7 +33,12 @@ pub fn answer(kernel: Kernel, input: &mut Input) {
             step::limit_strands(particles, before.colour_strands(), line, lengths, dt);
         }
         Kernel::LimitAttachments => step::limit_attachments(particles, &before.attachments, dt),
-        Kernel::LimitPredictive => step::limit_predictive(particles, before.colour_limits(), dt),
+        Kernel::WarmStart => {
+            step::warm_start(particles, before.colour_limits(), &mut input.limit_impulses[before.colour()], dt);
+        }
+        Kernel::LimitPredictive => {
+            step::limit_predictive(particles, before.colour_limits(), &mut input.limit_impulses[before.colour()], dt);
+        }
         Kernel::LimitPosition => step::limit_position(particles, before.colour_limits()),
         Kernel::QuadMidpoints => {
             input.midpoints = step::quad_midpoints(&particles.positions, &particles.velocities, &before.quads);

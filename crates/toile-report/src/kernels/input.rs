@@ -35,6 +35,8 @@ pub struct Input {
     pub links: Csr<Link>,
     /// Limits of all colours.
     pub limits: Vec<Limit>,
+    /// What they pulled with [N·s].
+    pub limit_impulses: Vec<f32>,
     /// Strands of all colours.
     pub strands: Vec<Strand>,
     /// Particles of the strands.
@@ -109,14 +111,19 @@ pub struct Posed {
 }
 
 impl Input {
+    /// The span as indices.
+    pub fn colour(&self) -> Range<usize> {
+        self.span.start as usize..self.span.end as usize
+    }
+
     /// The limits of the span.
     pub fn colour_limits(&self) -> &[Limit] {
-        &self.limits[self.span.start as usize..self.span.end as usize]
+        &self.limits[self.colour()]
     }
 
     /// The strands of the span.
     pub fn colour_strands(&self) -> &[Strand] {
-        &self.strands[self.span.start as usize..self.span.end as usize]
+        &self.strands[self.colour()]
     }
 
     /// The ends of the limits of the strands of the span.
@@ -132,7 +139,7 @@ impl Input {
 
     /// The seam pairs of the span.
     pub fn colour_pairs(&self) -> &[SeamPair] {
-        &self.seam_pairs[self.span.start as usize..self.span.end as usize]
+        &self.seam_pairs[self.colour()]
     }
 
     /// Number of particles.
@@ -263,6 +270,7 @@ impl Inputs for Input {
                 rest_length: l.rest_length,
                 max_length: l.max_length,
             })),
+            "limit_impulses" => bytemuck::cast_slice(&self.limit_impulses).to_vec(),
             "strands" => array(self.strands.iter().map(|s| structs::Strand {
                 first: s.particles.start,
                 count: s.particles.end - s.particles.start,

@@ -101,6 +101,7 @@ impl Seeds {
             quad_winds: (0..counts.quads).map(|_| random.vector(0.02)).collect(),
             forces: (0..counts.particles).map(|i| force(random, i, &contacts[i as usize])).collect(),
             links: links(random, counts.particles),
+            limit_impulses: limit_impulses(random, &particles, &limits, settings.dt),
             strands,
             strand_particles,
             strand_lengths,
@@ -358,6 +359,17 @@ fn pairs(
         seam_pairs.push(SeamPair { ends, closing_speed, seam: 0 });
     }
     (counts.others..counts.others + count, limits, seam_pairs)
+}
+
+/// Nothing, or what would stop ends that are a little too fast: next to what the limit lacks it is small or large.
+fn limit_impulses(random: &mut Random, particles: &Particles, limits: &[Limit], dt: f32) -> Vec<f32> {
+    let mean_mass = particles.masses.iter().sum::<f32>() / particles.masses.len() as f32;
+    let impulse = |limit: &Limit| match random.below(3) {
+        0 => 0.0,
+        1 => mean_mass * limit.rest_length / dt * random.between(0.0, 0.1),
+        _ => mean_mass * limit.rest_length / dt * random.between(0.5, 2.0),
+    };
+    limits.iter().map(impulse).collect()
 }
 
 /// Holds of one to a few particles, and some of more than a workgroup has invocations.

@@ -22,6 +22,7 @@ pub struct Life<'a> {
     collision: &'a Collision,
     particles: Particles,
     contacts: Vec<Contact>,
+    limit_impulses: Vec<f32>,
     /// Steps done.
     pub steps: u32,
     /// Time of collision detection and response so far.
@@ -39,6 +40,7 @@ impl<'a> Life<'a> {
             collision,
             particles: Particles::new(model),
             contacts: vec![Contact::default(); model.positions.len()],
+            limit_impulses: vec![0.0; model.limits.len()],
             steps: 0,
             collision_time: Duration::ZERO,
             time: Duration::ZERO,
@@ -53,6 +55,10 @@ impl<'a> Life<'a> {
         let mut forces = step::spring_forces(particles, &model.links, settings);
         step::reaction(&mut forces, particles, &self.contacts, settings);
         step::euler(&mut particles.velocities, &forces, &particles.inverse_masses, dt);
+        for colour in &model.limit_colours {
+            let colour = colour.start as usize..colour.end as usize;
+            step::warm_start(particles, &model.limits[colour.clone()], &mut self.limit_impulses[colour], dt);
+        }
         for _ in 0..self.settings.sweeps {
             self.sweep();
             self.collide();
@@ -63,7 +69,7 @@ impl<'a> Life<'a> {
     }
 
     fn sweep(&mut self) {
-        let Self { model, settings, particles, .. } = self;
+        let Self { model, settings, particles, limit_impulses, .. } = self;
         step::limit_attachments(particles, &model.attachments, settings.dt);
         let (line, lengths) = (&model.strand_particles, &model.strand_lengths);
         for colour in &model.strand_colours {
@@ -71,8 +77,9 @@ impl<'a> Life<'a> {
             step::limit_strands(particles, strands, line, lengths, settings.dt);
         }
         for colour in (0..settings.limit_passes()).flat_map(|_| &model.limit_colours) {
-            let limits = &model.limits[colour.start as usize..colour.end as usize];
-            step::limit_predictive(particles, limits, settings.dt);
+            let colour = colour.start as usize..colour.end as usize;
+            let impulses = &mut limit_impulses[colour.clone()];
+            step::limit_predictive(particles, &model.limits[colour], impulses, settings.dt);
         }
     }
 
