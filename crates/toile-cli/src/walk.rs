@@ -133,7 +133,7 @@ fn go_to_start(
 ) -> Result<Vec<GarmentState>> {
     let seconds = 1.0 / walk.settings.frame_rate;
     let maps_per_frame = maps_per_frame(walkers[0].settings.steps_per_frame, walk.settings.frame_rate);
-    let garments: Vec<_> = walkers.iter().map(|walker| (&walker.model, walker.settings.settling())).collect();
+    let garments: Vec<_> = walkers.iter().map(|walker| (&walker.model, walker.settings.draping())).collect();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     let texel = walk.settings.texel as f32;
     let mut outfit = Outfit::new(&gpu.device, &mut encoder, way, &garments, texel, maps_per_frame)?;

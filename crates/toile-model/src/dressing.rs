@@ -187,12 +187,6 @@ impl StepSettings {
         Self { hold_rate: 0.0, ..self.indoors() }
     }
 
-    /// These settings while a dressed garment goes over to another pose: no wind, no friction, damped, and held by the body alone, so that
-    /// it slides to where it stretches least in that pose too.
-    pub fn settling(&self) -> Self {
-        Self { friction: 0.0, ..self.draping() }
-    }
-
     /// Cloth in wind never comes to rest, so that a garment is dressed without.
     fn indoors(&self) -> Self {
         Self { wind: None, damping: self.damping.max(DRAPING_DAMPING), ..self.clone() }
