@@ -1,7 +1,6 @@
 // Each limit begins a step with half of the impulse that it ended the last one with: tension that lasts need not be found anew. Limits
 // take it back where it is too much. One colour per dispatch.
 #import shared/item
-#import shared/step_params
 #import shared/span
 #import shared/limit
 
@@ -28,11 +27,11 @@ fn warm_start(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgro
     let b = positions[limit.second];
     let velocity_a = velocities[limit.first];
     let velocity_b = velocities[limit.second];
-    let predicted = (b.xyz - a.xyz) + (velocity_b.xyz - velocity_a.xyz) * step.dt;
-    let predicted_length = length(predicted);
-    if predicted_length > 0.0 {
+    let way = b.xyz - a.xyz;
+    let way_length = length(way);
+    if way_length > 0.0 {
         limit_impulses[span.first + i] = impulse;
-        let change = predicted * (impulse / predicted_length);
+        let change = way * (impulse / way_length);
         velocities[limit.first] = vec4<f32>(velocity_a.xyz + change * a.w, velocity_a.w);
         velocities[limit.second] = vec4<f32>(velocity_b.xyz - change * b.w, velocity_b.w);
     } else {

@@ -157,10 +157,10 @@ kernels! {
     Reaction "step" "reaction" Step Particle Body;
     /// Velocities from forces. W eq. 3.
     Euler "step" "euler" Step Particle Nothing;
+    /// Limits begin with half of the impulses that they ended the last step with.
+    WarmStart "step" "warm_start" Step LimitColour RulePredictive;
     /// Labelled edges keep their mean height while sewing.
     HoldEdges "step" "hold_edges" Step Hold Holds;
-    /// Limits begin with the impulses that they ended the last step with.
-    WarmStart "step" "warm_start" Step LimitColour RulePredictive;
     /// D §4.3.
     LimitZero "step" "limit_zero" Sweep LimitColour RuleZero;
     /// W eq. 5.

@@ -133,14 +133,14 @@ impl Reference {
             step::reaction(&mut forces, particles, &self.contacts, settings);
         }
         step::euler(&mut particles.velocities, &forces, &particles.inverse_masses, dt);
-        if settings.hold_rate > 0.0 {
-            step::hold_edges(particles, &model.holds, &model.held_particles, settings);
-        }
         if settings.sweeps > 0 && matches!(settings.rule, Rule::Predictive | Rule::Hierarchical) {
             for colour in &model.limit_colours {
                 let impulses = part_mut(&mut self.limit_impulses, colour);
-                step::warm_start(particles, part(&model.limits, colour), impulses, dt);
+                step::warm_start(particles, part(&model.limits, colour), impulses);
             }
+        }
+        if settings.hold_rate > 0.0 {
+            step::hold_edges(particles, &model.holds, &model.held_particles, settings);
         }
         for _ in 0..self.settings.sweeps.max(1) {
             self.sweep(lag);

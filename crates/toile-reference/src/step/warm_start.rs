@@ -1,6 +1,6 @@
 //! Limits begin where they ended.
 
-use super::limit_predictive::{after_move, pull_together};
+use super::limit_predictive::pull_together;
 use crate::Particles;
 use toile_model::Limit;
 
@@ -8,11 +8,12 @@ use toile_model::Limit;
 /// a mode lacks, its error follows z³ = τ·((2 + c)·z² − (1 + 2·c)·z + c), and no root leaves the unit circle for any τ < 1 up to c = 1/2.
 const CARRIED: f32 = 0.5;
 
-/// Gives each limit half of the impulse [N·s] that it ended the last step with, along its direction after a move of `dt` [s]. A limit
-/// without direction forgets its impulse. The limits are those of one colour: no two share a particle; `impulses` are theirs.
-pub fn warm_start(particles: &mut Particles, limits: &[Limit], impulses: &mut [f32], dt: f32) {
+/// Gives each limit half of the impulse [N·s] that it ended the last step with, along where the last move left it. A limit without
+/// direction forgets its impulse. The limits are those of one colour: no two share a particle; `impulses` are theirs.
+pub fn warm_start(particles: &mut Particles, limits: &[Limit], impulses: &mut [f32]) {
     for (limit, impulse) in limits.iter().zip(impulses) {
-        let span = after_move(particles, limit, dt);
+        let [a, b] = limit.ends.map(|end| particles.positions[end as usize]);
+        let span = b - a;
         let length = span.length();
         let pull = CARRIED * *impulse;
         *impulse = if length > 0.0 { pull } else { 0.0 };

@@ -117,7 +117,7 @@ fn average_and_predictive_keep_momentum() {
     });
     assert!(acted && error < 1e-6, "predictive {error}");
     let (error, acted) = momentum_error(|particles, limits| {
-        step::warm_start(particles, limits, &mut vec![1e-4; limits.len()], 0.01);
+        step::warm_start(particles, limits, &mut vec![1e-4; limits.len()]);
     });
     assert!(acted && error < 1e-6, "warm start {error}");
 }

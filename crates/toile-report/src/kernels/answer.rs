@@ -34,7 +34,7 @@ pub fn answer(kernel: Kernel, input: &mut Input) {
         }
         Kernel::LimitAttachments => step::limit_attachments(particles, &before.attachments, dt),
         Kernel::WarmStart => {
-            step::warm_start(particles, before.colour_limits(), &mut input.limit_impulses[before.colour()], dt);
+            step::warm_start(particles, before.colour_limits(), &mut input.limit_impulses[before.colour()]);
         }
         Kernel::LimitPredictive => {
             step::limit_predictive(particles, before.colour_limits(), &mut input.limit_impulses[before.colour()], dt);

@@ -57,7 +57,7 @@ impl<'a> Life<'a> {
         step::euler(&mut particles.velocities, &forces, &particles.inverse_masses, dt);
         for colour in &model.limit_colours {
             let colour = colour.start as usize..colour.end as usize;
-            step::warm_start(particles, &model.limits[colour.clone()], &mut self.limit_impulses[colour], dt);
+            step::warm_start(particles, &model.limits[colour.clone()], &mut self.limit_impulses[colour]);
         }
         for _ in 0..self.settings.sweeps {
             self.sweep();
