@@ -34,8 +34,7 @@ fn hold_chord(a: u32, b: u32, max_length: f32) {
     }
 }
 
-fn direction(chord: vec3<f32>) -> vec3<f32> {
-    let chord_length = length(chord);
+fn direction(chord: vec3<f32>, chord_length: f32) -> vec3<f32> {
     if chord_length > 0.0 {
         return chord / chord_length;
     }
@@ -66,11 +65,15 @@ fn hold_path(a: u32, quarter: u32, max_length: f32) {
     let bc = now_c - now_b;
     let cd = now_d - now_c;
     let de = (place_e.xyz + shift_e) - now_d;
-    let excess = length(ab) + length(bc) + length(cd) + length(de) - max_length;
-    let gradient_a = direction(ab);
-    let along_bc = direction(bc);
-    let along_cd = direction(cd);
-    let along_de = direction(de);
+    let length_ab = length(ab);
+    let length_bc = length(bc);
+    let length_cd = length(cd);
+    let length_de = length(de);
+    let excess = length_ab + length_bc + length_cd + length_de - max_length;
+    let gradient_a = direction(ab, length_ab);
+    let along_bc = direction(bc, length_bc);
+    let along_cd = direction(cd, length_cd);
+    let along_de = direction(de, length_de);
     let gradient_b = along_bc - gradient_a;
     let gradient_c = along_cd - along_bc;
     let gradient_d = along_de - along_cd;

@@ -137,7 +137,8 @@ pub enum Rule {
     Directional,
     /// Both ends are moved together after the step. Provot; W §3.1.
     Position,
-    /// The part of the velocities that would make the spring over-long after the coming move is removed.
+    /// The part of the velocities that would make the spring over-long after the coming move is removed. A spring begins each step with
+    /// half of the impulse that it ended the last one with.
     Predictive,
     /// The same, and before it on limits that span 2, 4, 8… cells, the longest first, so that a sweep reaches far; and where the cloth
     /// has pins, from each of them outward.

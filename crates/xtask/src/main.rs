@@ -5,6 +5,7 @@
 
 use std::env;
 use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
 
@@ -21,10 +22,15 @@ fn main() -> ExitCode {
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
-            eprintln!("error: {message}");
+            say(&format!("error: {message}"));
             ExitCode::FAILURE
         }
     }
+}
+
+/// Tells what is done, beside what the commands themselves print. Nobody may listen any more.
+fn say(text: &str) {
+    let _ = writeln!(io::stderr(), "{text}");
 }
 
 /// Dresses the built-in body in the built-in dress, or what the options say.
@@ -65,7 +71,7 @@ fn ensure_adapter(toile: &Path) -> Result<(), String> {
     if has_adapter(toile)? {
         return Ok(());
     }
-    println!("no adapter found: a Vulkan driver that works on the CPU is installed");
+    say("no adapter found: a Vulkan driver that works on the CPU is installed");
     let manual = format!("apt-get update && apt-get install -y {}", PACKAGES.join(" "));
     let debian = fs::read_to_string("/etc/os-release").is_ok_and(|text| text.contains("debian"));
     if !debian {
@@ -91,7 +97,7 @@ fn ensure_adapter(toile: &Path) -> Result<(), String> {
 /// Whether the program finds an adapter that it can use; it lists what it finds.
 fn has_adapter(toile: &Path) -> Result<bool, String> {
     let mut command = command(&toile.display().to_string(), &["adapters"]);
-    println!("$ {command:?}");
+    say(&format!("$ {command:?}"));
     match command.stderr(Stdio::null()).status() {
         Ok(status) => Ok(status.success()),
         Err(error) => Err(format!("{} cannot be run: {error}", toile.display())),
@@ -115,7 +121,7 @@ fn command(program: &str, arguments: &[&str]) -> Command {
 
 /// Runs a command after saying which.
 fn run(mut command: Command) -> Result<(), String> {
-    println!("$ {command:?}");
+    say(&format!("$ {command:?}"));
     match command.status() {
         Ok(status) if status.success() => Ok(()),
         Ok(status) => Err(format!("{command:?} ended with {status}")),
