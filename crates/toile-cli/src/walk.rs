@@ -123,7 +123,8 @@ fn dress(walk: &Walk, computer: &Computer, quiet: bool) -> Result<Vec<GarmentSta
     Ok(states)
 }
 
-/// The dressed garments go along while the body goes over to the start of its walk and waits there until they hang quietly.
+/// The dressed garments go along while the body goes over to the start of its walk and waits there until they hang quietly. They ease
+/// on the way: with friction, shoulders keep the stretch that sinking arms leave in them.
 fn go_to_start(
     walk: &Walk,
     way: &MovingMesh,
@@ -133,7 +134,7 @@ fn go_to_start(
 ) -> Result<Vec<GarmentState>> {
     let seconds = 1.0 / walk.settings.frame_rate;
     let maps_per_frame = maps_per_frame(walkers[0].settings.steps_per_frame, walk.settings.frame_rate);
-    let garments: Vec<_> = walkers.iter().map(|walker| (&walker.model, walker.settings.draping())).collect();
+    let garments: Vec<_> = walkers.iter().map(|walker| (&walker.model, walker.settings.easing())).collect();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     let texel = walk.settings.texel as f32;
     let mut outfit = Outfit::new(&gpu.device, &mut encoder, way, &garments, texel, maps_per_frame)?;

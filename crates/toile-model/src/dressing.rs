@@ -177,7 +177,8 @@ impl StepSettings {
         Self { gravity: Vec3::ZERO, damping: self.damping.max(SEWING_DAMPING), ..self.easing() }
     }
 
-    /// These settings while a sewn garment eases: no wind, no friction, no polish, and damped; its labelled edges are still held.
+    /// These settings while a garment eases, newly sewn or on the way to another pose: no wind, no friction, no polish, and damped; its
+    /// labelled edges are still held.
     pub fn easing(&self) -> Self {
         Self { friction: 0.0, polish: None, ..self.indoors() }
     }
