@@ -100,13 +100,16 @@ fn a_polish_repeats_the_sweep_behind_grants_and_a_plan_without_has_neither() {
         assert_eq!(undecided, expected, "{name}: what needs no grant is the plain step with one measurement");
         assert_eq!(free.iter().filter(is_decision).count(), 4, "{name}: before each further sweep and after the last");
 
-        let sweep: Vec<_> = plain.0.step[..plain.0.step.len() - 1].iter().skip_while(|p| !is_limit(p)).collect();
+        let (guards, others): (Vec<Pass>, Vec<Pass>) =
+            plain.0.step.iter().cloned().partition(|pass| pass.kernel == Kernel::LimitGuard);
+        assert!(!guards.is_empty(), "{name}");
+        let sweep: Vec<_> = others[..others.len() - 1].iter().skip_while(|pass| !is_limit(pass)).cloned().collect();
         let further: Vec<Pass> =
-            sweep[..sweep.len() / sweeps].iter().map(|pass| (*pass).clone()).chain([measurement]).collect();
+            sweep[..sweep.len() / sweeps].iter().chain(&guards).chain([&measurement]).cloned().collect();
         let numbered = further.iter().zip(0..).map(|(pass, place)| Pass { grant: Some(place), ..pass.clone() });
         let granted: Vec<_> = polished.0.step.iter().filter(|pass| pass.grant.is_some()).cloned().collect();
         let three: Vec<Pass> = numbered.cycle().take(3 * further.len()).collect();
-        assert_eq!(granted, three, "{name}: three times the sweep, each measured");
+        assert_eq!(granted, three, "{name}: three times the sweep, each guarded and measured");
 
         assert_eq!(polished.0.frame, plain.0.frame, "{name}");
         let new: Vec<_> = polished.1.iter().filter(|(buffer, _)| !plain.1.contains_key(*buffer)).collect();
@@ -116,7 +119,7 @@ fn a_polish_repeats_the_sweep_behind_grants_and_a_plan_without_has_neither() {
     }
 }
 
-fn is_limit(pass: &&Pass) -> bool {
+fn is_limit(pass: &Pass) -> bool {
     matches!(pass.kernel, Kernel::LimitAttachments | Kernel::LimitStrands | Kernel::LimitPredictive)
 }
 

@@ -96,6 +96,7 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
             see("never pulled", impulses().filter(|(old, new)| **old == 0.0 && **new == 0.0).count());
             assert!(impulses().all(|(_, new)| *new >= 0.0), "a limit never pushes");
         }
+        Kernel::LimitGuard => ends(&limit_ends(before), before, after, &mut see),
         Kernel::WarmStart => {
             ends(&limit_ends(before), before, after, &mut see);
             let impulses = || before.limit_impulses[before.colour()].iter().zip(&after.limit_impulses[before.colour()]);

@@ -78,6 +78,10 @@ impl Plan {
                     (0..settings.sweeps.max(1)).for_each(|_| step.extend(passes.iter().cloned()));
                     sweep = passes;
                 }
+                Stage::AfterSweeps => {
+                    step.extend(passes.iter().cloned());
+                    sweep.extend(passes);
+                }
                 Stage::Polish => step.extend(polish(&passes, &sweep, settings.polish.map_or(0, |p| p.sweeps))),
                 Stage::Pose | Stage::Frame | Stage::Handover | Stage::Measure => {}
             }
@@ -151,6 +155,7 @@ fn holds(need: Need, needs: &Needs) -> bool {
         Need::RulePredictive => matches!(needs.rule, Rule::Predictive | Rule::Hierarchical),
         Need::Attachments => needs.attachments,
         Need::Strands => needs.rule == Rule::Hierarchical,
+        Need::SewnStrands => needs.rule == Rule::Hierarchical && !needs.seams,
         Need::RulePosition => needs.rule == Rule::Position,
         Need::Polish => needs.polish,
     }

@@ -12,7 +12,9 @@ pub enum Stage {
     /// Once per sweep: consecutive rows of this stage are repeated together as often as the settings say, so that limits, bodies and
     /// seams take turns.
     Sweep,
-    /// Before each further sweep of a polish and after the last: it repeats the rows of [`Stage::Sweep`] before it.
+    /// Once after the sweeps of a step, and after each further sweep of a polish.
+    AfterSweeps,
+    /// Before each further sweep of a polish and after the last: it repeats the rows of [`Stage::Sweep`] and [`Stage::AfterSweeps`] before it.
     Polish,
     /// Once per frame, after its steps.
     Frame,
@@ -86,6 +88,8 @@ pub enum Need {
     RulePosition,
     /// Strands, under the rule Hierarchical.
     Strands,
+    /// Strands of a cloth without open seams.
+    SewnStrands,
     /// Pins under the rule Hierarchical.
     Attachments,
     /// Limits under a predictive rule, with a polish.
@@ -185,6 +189,8 @@ kernels! {
     Collide "step" "collide" Sweep Particle Body;
     /// Seams close at a set speed; last of all, so that a seam that a tight fit holds open closes all the same.
     CloseSeams "step" "close_seams" Sweep SeamColour Seams;
+    /// No contact leaves a spring stretched far beyond its limit. Seams that are still open would be held apart by it.
+    LimitGuard "step" "limit_guard" AfterSweeps LimitColour SewnStrands;
     /// Whether the coming move would stretch a spring beyond the target of a polish.
     MeasureExcess "step" "measure_excess" Polish Limit Polish;
     /// Further sweeps while it would, at most so many.

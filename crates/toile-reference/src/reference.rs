@@ -145,9 +145,11 @@ impl Reference {
         for _ in 0..self.settings.sweeps.max(1) {
             self.sweep(lag);
         }
+        self.guard();
         if let Some(polish) = self.polishes() {
             while self.grants_sweep(polish) {
                 self.sweep(lag);
+                self.guard();
             }
         }
         let Self { model, settings, particles, .. } = self;
@@ -171,6 +173,16 @@ impl Reference {
         let Self { model, settings, particles, .. } = self;
         for colour in &model.seam_colours {
             step::close_seams(particles, part(&model.seam_pairs, colour), settings.dt);
+        }
+    }
+
+    /// After the sweeps of a sewn cloth: no contact leaves a spring stretched far beyond its limit.
+    fn guard(&mut self) {
+        let Self { model, settings, particles, .. } = self;
+        if settings.rule == Rule::Hierarchical && settings.sweeps > 0 && model.seam_pairs.is_empty() {
+            for colour in &model.limit_colours {
+                step::limit_guard(particles, part(&model.limits, colour), settings.dt);
+            }
         }
     }
 

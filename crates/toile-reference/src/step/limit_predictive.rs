@@ -24,7 +24,7 @@ pub fn limit_predictive(particles: &mut Particles, limits: &[Limit], impulses: &
 }
 
 /// From the first to the second end of a limit after a move of `dt`.
-fn after_move(particles: &Particles, limit: &Limit, dt: f32) -> Vec3 {
+pub(super) fn after_move(particles: &Particles, limit: &Limit, dt: f32) -> Vec3 {
     let [a, b] = limit.ends.map(|end| end as usize);
     (particles.positions[b] - particles.positions[a]) + (particles.velocities[b] - particles.velocities[a]) * dt
 }

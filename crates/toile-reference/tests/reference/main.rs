@@ -4,6 +4,7 @@ mod contact;
 mod distance;
 mod free_fall;
 mod life;
+mod limit_guard;
 mod limits;
 mod maps;
 mod normals;

@@ -39,6 +39,7 @@ pub fn answer(kernel: Kernel, input: &mut Input) {
         Kernel::LimitPredictive => {
             step::limit_predictive(particles, before.colour_limits(), &mut input.limit_impulses[before.colour()], dt);
         }
+        Kernel::LimitGuard => step::limit_guard(particles, before.colour_limits(), dt),
         Kernel::LimitPosition => step::limit_position(particles, before.colour_limits()),
         Kernel::QuadMidpoints => {
             input.midpoints = step::quad_midpoints(&particles.positions, &particles.velocities, &before.quads);

@@ -63,6 +63,7 @@ impl<'a> Life<'a> {
             self.sweep();
             self.collide();
         }
+        self.guard();
         step::move_particles(&mut self.particles.positions, &self.particles.velocities, dt);
         self.steps += 1;
         self.time += start.elapsed();
@@ -80,6 +81,14 @@ impl<'a> Life<'a> {
             let colour = colour.start as usize..colour.end as usize;
             let impulses = &mut limit_impulses[colour.clone()];
             step::limit_predictive(particles, &model.limits[colour], impulses, settings.dt);
+        }
+    }
+
+    fn guard(&mut self) {
+        let Self { model, settings, particles, .. } = self;
+        for colour in &model.limit_colours {
+            let colour = colour.start as usize..colour.end as usize;
+            step::limit_guard(particles, &model.limits[colour], settings.dt);
         }
     }
 
