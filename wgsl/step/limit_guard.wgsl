@@ -1,4 +1,4 @@
-// After contacts and seams had the last word in a sweep: what they would leave stretched twice as far as its limit is removed
+// After the contacts of the last sweep: what would still leave a spring stretched more than twice as far as its limit is removed
 // from the velocities of its ends, by inverse mass. One colour per dispatch.
 #import shared/item
 #import shared/step_params
