@@ -175,7 +175,11 @@ fn passes(row: &Row, model: &Model, settings: &StepSettings) -> Vec<Pass> {
         Domain::Hold => all(model.holds.len() as u32),
         Domain::Limit => all(model.limits.len() as u32),
         Domain::LimitColour => {
-            let turns = if row.stage == Stage::Sweep { settings.limit_passes() } else { 1 };
+            let turns = match row.stage {
+                Stage::Sweep => settings.limit_passes(),
+                Stage::AfterSweeps => settings.guard_passes(),
+                _ => 1,
+            };
             (0..turns).flat_map(|_| coloured(&model.limit_colours)).collect()
         }
         Domain::StrandColour => coloured(&model.strand_colours),

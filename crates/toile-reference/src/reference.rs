@@ -180,7 +180,7 @@ impl Reference {
     fn guard(&mut self) {
         let Self { model, settings, particles, .. } = self;
         if settings.rule == Rule::Hierarchical && settings.sweeps > 0 && model.seam_pairs.is_empty() {
-            for colour in &model.limit_colours {
+            for colour in (0..settings.guard_passes()).flat_map(|_| &model.limit_colours) {
                 step::limit_guard(particles, part(&model.limits, colour), settings.dt);
             }
         }

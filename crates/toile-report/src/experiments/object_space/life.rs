@@ -86,7 +86,7 @@ impl<'a> Life<'a> {
 
     fn guard(&mut self) {
         let Self { model, settings, particles, .. } = self;
-        for colour in &model.limit_colours {
+        for colour in (0..settings.guard_passes()).flat_map(|_| &model.limit_colours) {
             let colour = colour.start as usize..colour.end as usize;
             step::limit_guard(particles, &model.limits[colour], settings.dt);
         }
