@@ -4,10 +4,9 @@
 #import shared/step_params
 #import shared/span
 #import shared/limit
+#import shared/pair
 
 @group(0) @binding(2) var<storage, read> limits: array<Limit>;
-@group(0) @binding(3) var<storage, read> positions: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read_write> velocities: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read_write> limit_impulses: array<f32>;
 
 @compute @workgroup_size(64)
@@ -17,22 +16,16 @@ fn limit_predictive(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_w
         return;
     }
     let limit = limits[span.first + i];
-    let a = positions[limit.first];
-    let b = positions[limit.second];
-    let inverse_mass_sum = a.w + b.w;
+    let inverse_mass_sum = inverse_mass_sum_of(limit.first, limit.second);
     if !(inverse_mass_sum > 0.0) {
         return;
     }
-    let velocity_a = velocities[limit.first];
-    let velocity_b = velocities[limit.second];
-    let predicted = (b.xyz - a.xyz) + (velocity_b.xyz - velocity_a.xyz) * step.dt;
+    let predicted = after_move(limit.first, limit.second, step.dt);
     let predicted_length = length(predicted);
     let pulled = limit_impulses[span.first + i];
     let pull = max((predicted_length - limit.max_length) / (step.dt * inverse_mass_sum), -pulled);
     if predicted_length > 0.0 && pull != 0.0 {
+        pull_together(limit.first, limit.second, predicted * (pull / predicted_length));
         limit_impulses[span.first + i] = pulled + pull;
-        let change = predicted * (pull / predicted_length);
-        velocities[limit.first] = vec4<f32>(velocity_a.xyz + change * a.w, velocity_a.w);
-        velocities[limit.second] = vec4<f32>(velocity_b.xyz - change * b.w, velocity_b.w);
     }
 }

@@ -3,10 +3,9 @@
 #import shared/item
 #import shared/span
 #import shared/limit
+#import shared/pair
 
 @group(0) @binding(2) var<storage, read> limits: array<Limit>;
-@group(0) @binding(3) var<storage, read> positions: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read_write> velocities: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read_write> limit_impulses: array<f32>;
 
 // The largest part that cannot swing up, however slowly sweeps converge.
@@ -23,17 +22,11 @@ fn warm_start(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgro
         return;
     }
     let limit = limits[span.first + i];
-    let a = positions[limit.first];
-    let b = positions[limit.second];
-    let velocity_a = velocities[limit.first];
-    let velocity_b = velocities[limit.second];
-    let way = b.xyz - a.xyz;
+    let way = positions[limit.second].xyz - positions[limit.first].xyz;
     let way_length = length(way);
     if way_length > 0.0 {
+        pull_together(limit.first, limit.second, way * (impulse / way_length));
         limit_impulses[span.first + i] = impulse;
-        let change = way * (impulse / way_length);
-        velocities[limit.first] = vec4<f32>(velocity_a.xyz + change * a.w, velocity_a.w);
-        velocities[limit.second] = vec4<f32>(velocity_b.xyz - change * b.w, velocity_b.w);
     } else {
         limit_impulses[span.first + i] = 0.0;
     }

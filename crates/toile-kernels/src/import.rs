@@ -16,6 +16,7 @@ const SHARED: &[(&str, &str)] = &shared![
     "map_planes",
     "midpoint",
     "over_long",
+    "pair",
     "point",
     "polish",
     "probe",

@@ -11,6 +11,7 @@ mod contact;
 mod digest;
 mod exact_distance;
 pub mod frame;
+pub mod limits;
 pub mod maps;
 mod object_space;
 mod particles;

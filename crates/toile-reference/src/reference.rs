@@ -1,10 +1,10 @@
 //! The life of the GPU simulation on the CPU.
 
+use crate::limits::{self, part};
 use crate::maps::BodyMaps;
 use crate::step::PolishState;
 use crate::{Ball, Contact, Lag, Particles, Probe, digest, frame, step};
 use glam::Vec3;
-use std::ops::Range;
 use toile_model::{Merge, Model, Status, StepSettings};
 use toile_scene::{Polish, Rule, Sphere};
 
@@ -133,23 +133,18 @@ impl Reference {
             step::reaction(&mut forces, particles, &self.contacts, settings);
         }
         step::euler(&mut particles.velocities, &forces, &particles.inverse_masses, dt);
-        if settings.sweeps > 0 && matches!(settings.rule, Rule::Predictive | Rule::Hierarchical) {
-            for colour in &model.limit_colours {
-                let impulses = part_mut(&mut self.limit_impulses, colour);
-                step::warm_start(particles, part(&model.limits, colour), impulses);
-            }
-        }
+        limits::warm_start(particles, model, settings, &mut self.limit_impulses);
         if settings.hold_rate > 0.0 {
             step::hold_edges(particles, &model.holds, &model.held_particles, settings);
         }
         for _ in 0..self.settings.sweeps.max(1) {
             self.sweep(lag);
         }
-        self.guard();
+        limits::guard(&mut self.particles, &self.model, &self.settings);
         if let Some(polish) = self.polishes() {
             while self.grants_sweep(polish) {
                 self.sweep(lag);
-                self.guard();
+                limits::guard(&mut self.particles, &self.model, &self.settings);
             }
         }
         let Self { model, settings, particles, .. } = self;
@@ -166,23 +161,15 @@ impl Reference {
 
     /// One sweep: limits, bodies and seams take their turns.
     fn sweep(&mut self, lag: Lag) {
-        self.sweep_velocities();
+        let Self { model, settings, particles, contacts, limit_impulses, .. } = self;
+        let touched = (!contacts.is_empty()).then_some(contacts.as_slice());
+        limits::sweep(particles, model, settings, touched, limit_impulses);
         if self.colliders.maps.is_some() || self.colliders.sphere.is_some() {
             self.collide(lag);
         }
         let Self { model, settings, particles, .. } = self;
         for colour in &model.seam_colours {
             step::close_seams(particles, part(&model.seam_pairs, colour), settings.dt);
-        }
-    }
-
-    /// After the sweeps of a sewn cloth: no contact leaves a spring stretched far beyond its limit.
-    fn guard(&mut self) {
-        let Self { model, settings, particles, .. } = self;
-        if settings.rule == Rule::Hierarchical && settings.sweeps > 0 && model.seam_pairs.is_empty() {
-            for colour in (0..settings.guard_passes()).flat_map(|_| &model.limit_colours) {
-                step::limit_guard(particles, part(&model.limits, colour), settings.dt);
-            }
         }
     }
 
@@ -196,34 +183,6 @@ impl Reference {
         let Self { model, settings, particles, .. } = self;
         self.polish.elongation_max = step::measure_excess(particles, &model.limits, polish.target as f32, settings.dt);
         step::grant_sweep(&mut self.polish, polish.sweeps)
-    }
-
-    /// One sweep over all limits, colour by colour; under the hierarchical rule from pins outward, along strands, then single springs.
-    fn sweep_velocities(&mut self) {
-        let Self { model, settings, particles, contacts, limit_impulses, .. } = self;
-        let contacts = (!contacts.is_empty()).then_some(contacts.as_slice());
-        if settings.sweeps == 0 {
-            return;
-        }
-        if settings.rule == Rule::Hierarchical {
-            step::limit_attachments(particles, &model.attachments, settings.dt);
-            let (line, lengths) = (&model.strand_particles, &model.strand_lengths);
-            for colour in &model.strand_colours {
-                step::limit_strands(particles, part(&model.strands, colour), line, lengths, settings.dt);
-            }
-        }
-        for colour in (0..settings.limit_passes()).flat_map(|_| &model.limit_colours) {
-            let limits = part(&model.limits, colour);
-            match settings.rule {
-                Rule::None | Rule::Position => {}
-                Rule::Zero => step::limit_zero(particles, limits),
-                Rule::Average => step::limit_average(particles, limits),
-                Rule::Directional => step::limit_directional(particles, limits, contacts, settings),
-                Rule::Predictive | Rule::Hierarchical => {
-                    step::limit_predictive(particles, limits, part_mut(limit_impulses, colour), settings.dt);
-                }
-            }
-        }
     }
 
     fn collide(&mut self, lag: Lag) {
@@ -309,13 +268,4 @@ impl Reference {
     pub fn digest(&self) -> String {
         digest::digest(&self.model, &self.status(), &self.particles.positions, &self.contacts)
     }
-}
-
-/// The items of a colour.
-fn part<'a, T>(items: &'a [T], colour: &Range<u32>) -> &'a [T] {
-    &items[colour.start as usize..colour.end as usize]
-}
-
-fn part_mut<'a, T>(items: &'a mut [T], colour: &Range<u32>) -> &'a mut [T] {
-    &mut items[colour.start as usize..colour.end as usize]
 }

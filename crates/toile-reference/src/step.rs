@@ -16,6 +16,7 @@ mod limit_zero;
 mod map_planes;
 mod measure_excess;
 mod move_particles;
+mod pair;
 mod quad_midpoints;
 mod quad_wind;
 mod reaction;

@@ -1,6 +1,6 @@
 //! The last word on single springs.
 
-use super::limit_predictive::{after_move, pull_together};
+use super::pair::{after_move, inverse_mass_sum, pull_together};
 use crate::Particles;
 use toile_model::Limit;
 
@@ -8,16 +8,16 @@ use toile_model::Limit;
 /// a move of `dt` [s]. The limits are those of one colour: no two share a particle.
 pub fn limit_guard(particles: &mut Particles, limits: &[Limit], dt: f32) {
     for limit in limits {
-        let weight: f32 = limit.ends.iter().map(|end| particles.inverse_masses[*end as usize]).sum();
+        let weight = inverse_mass_sum(particles, limit.ends);
         if !(weight > 0.0) {
             continue;
         }
-        let span = after_move(particles, limit, dt);
+        let span = after_move(particles, limit.ends, dt);
         let length = span.length();
         let guard_length = 2.0 * limit.max_length - limit.rest_length;
         if length > guard_length {
             let pull = (length - guard_length) / (dt * weight);
-            pull_together(particles, limit, span * (pull / length));
+            pull_together(particles, limit.ends, span * (pull / length));
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Limits begin where they ended.
 
-use super::limit_predictive::pull_together;
+use super::pair::pull_together;
 use crate::Particles;
 use toile_model::Limit;
 
@@ -18,7 +18,7 @@ pub fn warm_start(particles: &mut Particles, limits: &[Limit], impulses: &mut [f
         let pull = CARRIED * *impulse;
         *impulse = if length > 0.0 { pull } else { 0.0 };
         if *impulse != 0.0 {
-            pull_together(particles, limit, span * (pull / length));
+            pull_together(particles, limit.ends, span * (pull / length));
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 use toile::model::{Model, StepSettings};
 use toile_reference::maps::BodyMaps;
-use toile_reference::{Contact, Midpoints, ObjectSpace, Particles, Probe, frame, step};
+use toile_reference::{Contact, Midpoints, ObjectSpace, Particles, Probe, frame, limits, step};
 
 /// Where collision is tested.
 #[derive(Clone, Debug)]
@@ -55,41 +55,16 @@ impl<'a> Life<'a> {
         let mut forces = step::spring_forces(particles, &model.links, settings);
         step::reaction(&mut forces, particles, &self.contacts, settings);
         step::euler(&mut particles.velocities, &forces, &particles.inverse_masses, dt);
-        for colour in &model.limit_colours {
-            let colour = colour.start as usize..colour.end as usize;
-            step::warm_start(particles, &model.limits[colour.clone()], &mut self.limit_impulses[colour]);
-        }
+        limits::warm_start(particles, model, settings, &mut self.limit_impulses);
         for _ in 0..self.settings.sweeps {
-            self.sweep();
+            let Self { model, settings, particles, limit_impulses, .. } = self;
+            limits::sweep(particles, model, settings, None, limit_impulses);
             self.collide();
         }
-        self.guard();
+        limits::guard(&mut self.particles, self.model, &self.settings);
         step::move_particles(&mut self.particles.positions, &self.particles.velocities, dt);
         self.steps += 1;
         self.time += start.elapsed();
-    }
-
-    fn sweep(&mut self) {
-        let Self { model, settings, particles, limit_impulses, .. } = self;
-        step::limit_attachments(particles, &model.attachments, settings.dt);
-        let (line, lengths) = (&model.strand_particles, &model.strand_lengths);
-        for colour in &model.strand_colours {
-            let strands = &model.strands[colour.start as usize..colour.end as usize];
-            step::limit_strands(particles, strands, line, lengths, settings.dt);
-        }
-        for colour in (0..settings.limit_passes()).flat_map(|_| &model.limit_colours) {
-            let colour = colour.start as usize..colour.end as usize;
-            let impulses = &mut limit_impulses[colour.clone()];
-            step::limit_predictive(particles, &model.limits[colour], impulses, settings.dt);
-        }
-    }
-
-    fn guard(&mut self) {
-        let Self { model, settings, particles, .. } = self;
-        for colour in (0..settings.guard_passes()).flat_map(|_| &model.limit_colours) {
-            let colour = colour.start as usize..colour.end as usize;
-            step::limit_guard(particles, &model.limits[colour], settings.dt);
-        }
     }
 
     fn collide(&mut self) {

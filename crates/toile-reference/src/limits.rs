@@ -1,0 +1,68 @@
+//! What a step does with all limits of a cloth, colour by colour: [`Reference`](crate::Reference) without forces and bodies.
+
+use crate::{Contact, Particles, step};
+use std::ops::Range;
+use toile_model::{Model, StepSettings};
+use toile_scene::Rule;
+
+/// Limits begin a step with part of what they pulled with at the end of the last: `impulses` [N·s], shape [limit_count].
+pub fn warm_start(particles: &mut Particles, model: &Model, settings: &StepSettings, impulses: &mut [f32]) {
+    if settings.sweeps == 0 || !matches!(settings.rule, Rule::Predictive | Rule::Hierarchical) {
+        return;
+    }
+    for colour in &model.limit_colours {
+        step::warm_start(particles, part(&model.limits, colour), part_mut(impulses, colour));
+    }
+}
+
+/// One sweep over the velocities; under the hierarchical rule from pins outward, along strands, then single springs. `contacts` are those
+/// of the last step, shape [particle_count], where there is a body; `impulses` [N·s] go on through the step, shape [limit_count].
+pub fn sweep(
+    particles: &mut Particles,
+    model: &Model,
+    settings: &StepSettings,
+    contacts: Option<&[Contact]>,
+    impulses: &mut [f32],
+) {
+    if settings.sweeps == 0 {
+        return;
+    }
+    if settings.rule == Rule::Hierarchical {
+        step::limit_attachments(particles, &model.attachments, settings.dt);
+        let (line, lengths) = (&model.strand_particles, &model.strand_lengths);
+        for colour in &model.strand_colours {
+            step::limit_strands(particles, part(&model.strands, colour), line, lengths, settings.dt);
+        }
+    }
+    for colour in (0..settings.limit_passes()).flat_map(|_| &model.limit_colours) {
+        let limits = part(&model.limits, colour);
+        match settings.rule {
+            Rule::None | Rule::Position => {}
+            Rule::Zero => step::limit_zero(particles, limits),
+            Rule::Average => step::limit_average(particles, limits),
+            Rule::Directional => step::limit_directional(particles, limits, contacts, settings),
+            Rule::Predictive | Rule::Hierarchical => {
+                step::limit_predictive(particles, limits, part_mut(impulses, colour), settings.dt);
+            }
+        }
+    }
+}
+
+/// After the sweeps, where no seam is open: no contact leaves a spring stretched far beyond its limit.
+pub fn guard(particles: &mut Particles, model: &Model, settings: &StepSettings) {
+    if settings.rule != Rule::Hierarchical || settings.sweeps == 0 || !model.seam_pairs.is_empty() {
+        return;
+    }
+    for colour in (0..settings.guard_passes()).flat_map(|_| &model.limit_colours) {
+        step::limit_guard(particles, part(&model.limits, colour), settings.dt);
+    }
+}
+
+/// The items of a colour.
+pub(crate) fn part<'a, T>(items: &'a [T], colour: &Range<u32>) -> &'a [T] {
+    &items[colour.start as usize..colour.end as usize]
+}
+
+fn part_mut<'a, T>(items: &'a mut [T], colour: &Range<u32>) -> &'a mut [T] {
+    &mut items[colour.start as usize..colour.end as usize]
+}
