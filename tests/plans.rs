@@ -100,8 +100,8 @@ fn a_polish_repeats_the_sweep_behind_grants_and_a_plan_without_has_neither() {
         assert_eq!(undecided, expected, "{name}: what needs no grant is the plain step with one measurement");
         assert_eq!(free.iter().filter(is_decision).count(), 4, "{name}: before each further sweep and after the last");
 
-        let (guards, others): (Vec<Pass>, Vec<Pass>) =
-            plain.0.step.iter().cloned().partition(|pass| pass.kernel == Kernel::LimitGuard);
+        let is_guard = |pass: &Pass| matches!(pass.kernel, Kernel::LimitGuard | Kernel::KeepOut);
+        let (guards, others): (Vec<Pass>, Vec<Pass>) = plain.0.step.iter().cloned().partition(is_guard);
         assert!(!guards.is_empty(), "{name}");
         let sweep: Vec<_> = others[..others.len() - 1].iter().skip_while(|pass| !is_limit(pass)).cloned().collect();
         let further: Vec<Pass> =

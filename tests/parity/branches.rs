@@ -96,7 +96,31 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
             see("never pulled", impulses().filter(|(old, new)| **old == 0.0 && **new == 0.0).count());
             assert!(impulses().all(|(_, new)| *new >= 0.0), "a limit never pushes");
         }
-        Kernel::LimitGuard => ends(&limit_ends(before), before, after, &mut see),
+        Kernel::LimitGuard => {
+            ends(&limit_ends(before), before, after, &mut see);
+            let at = |i: u32| positions[i as usize] + before.particles.velocities[i as usize] * before.settings.dt;
+            let excess = |l: &toile_model::Limit| {
+                (at(l.ends[1]) - at(l.ends[0])).length() - (2.0 * l.max_length - l.rest_length)
+            };
+            let way = before.settings.guard_way();
+            let excesses = || before.colour_limits().iter().map(excess);
+            see("is shortened to where the guard begins", excesses().filter(|e| *e > 0.0 && *e < way).count());
+            see("is shortened as far as it may be at once", excesses().filter(|e| *e > way).count());
+        }
+        Kernel::KeepOut => {
+            let probe = |i: usize| &before.probes[i];
+            let deep = |i: usize| probe(i).distance < -before.settings.thickness;
+            let meets = |i: &usize| probe(*i).hit && weights[*i] > 0.0;
+            see("meets no body", particles().filter(|i| !probe(*i).hit).count());
+            see("is pinned", particles().filter(|i| probe(*i).hit && weights[*i] == 0.0 && !changed(*i)).count());
+            see(
+                "is stopped within the thickness",
+                particles().filter(|i| meets(i) && !deep(*i) && changed(*i)).count(),
+            );
+            see("is deeper and goes no farther", particles().filter(|i| meets(i) && deep(*i) && changed(*i)).count());
+            see("is deeper and leaves", particles().filter(|i| meets(i) && deep(*i) && !changed(*i)).count());
+            see("goes on within the thickness", particles().filter(|i| meets(i) && !deep(*i) && !changed(*i)).count());
+        }
         Kernel::WarmStart => {
             ends(&limit_ends(before), before, after, &mut see);
             let impulses = || before.limit_impulses[before.colour()].iter().zip(&after.limit_impulses[before.colour()]);

@@ -19,6 +19,8 @@ struct StepParams {
     wind: vec3<f32>,            // velocity of the air [m/s]
     drag: f32,                  // drag coefficient of a plate across the wind
     lift: f32,                  // lift coefficient
+    thickness: f32,             // distance kept from the bodies [m]
+    guard_way: f32,             // how much the guard shortens a spring at once [m]
     aim: f32,                   // part of the threshold that the limits hold
     limit_count: u32,           // structural and shear springs, whose limits are the first
 }

@@ -1,5 +1,5 @@
 // After the contacts of the last sweep: what would still leave a spring stretched more than twice as far as its limit is removed
-// from the velocities of its ends, by inverse mass. One colour per dispatch.
+// from the velocities of its ends, by inverse mass; so little at once that no end is flung into a body. One colour per dispatch.
 #import shared/item
 #import shared/step_params
 #import shared/span
@@ -23,7 +23,8 @@ fn limit_guard(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgr
     let predicted_length = length(predicted);
     let guard_length = 2.0 * limit.max_length - limit.rest_length;
     if predicted_length > guard_length {
-        let pull = (predicted_length - guard_length) / (step.dt * inverse_mass_sum);
+        let excess = min(predicted_length - guard_length, step.guard_way);
+        let pull = excess / (step.dt * inverse_mass_sum);
         pull_together(limit.first, limit.second, predicted * (pull / predicted_length));
     }
 }

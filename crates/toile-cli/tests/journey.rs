@@ -333,6 +333,27 @@ fn the_built_in_dress_is_sewn_and_comes_to_rest() {
     assert!(low > 0.35 && low < 0.65, "the hem is at {low} m");
 }
 
+/// The skirt of the fixtures, cut narrower by `part` [1].
+fn narrower_skirt(part: f64) -> String {
+    let mut skirt = json(&fs::read_to_string(fixture("garments/skirt.json")).expect("the skirt"));
+    for panel in skirt["pattern"]["panels"].as_object_mut().expect("panels").values_mut() {
+        for vertex in panel["vertices"].as_array_mut().expect("vertices") {
+            vertex[0] = ((1.0 - part) * vertex[0].as_f64().expect("a number")).into();
+        }
+    }
+    skirt.to_string()
+}
+
+#[test]
+fn a_garment_that_is_too_tight_stretches_rather_than_cut_into_the_body() {
+    let journey = Journey::new();
+    fs::write(journey.folder.path().join("tight.json"), narrower_skirt(0.06)).expect("written");
+    let metrics = json(&good(journey.run(&["dress", "--garment", "tight.json", "--spacing", "3cm", "--json"])));
+    let number = |name: &str| metrics[name].as_f64().expect("a number");
+    assert!((0.06..0.12).contains(&number("elongation_max")), "it is too tight for its limits: {metrics}");
+    assert!(number("penetration_max_mm") < 1.0, "{metrics}");
+}
+
 #[test]
 fn an_outer_garment_lies_over_an_inner_one_by_the_reference_too() {
     let journey = Journey::new();

@@ -241,6 +241,8 @@ fn step_params(model: &Model, settings: &StepSettings) -> structs::StepParams {
         wind: wind.velocity.as_vec3(),
         drag: wind.drag as f32,
         lift: wind.lift as f32,
+        thickness: settings.thickness,
+        guard_way: settings.guard_way(),
         aim: settings.aim(),
         limit_count: model.limits.len() as u32,
     }

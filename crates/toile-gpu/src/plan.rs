@@ -155,7 +155,8 @@ fn holds(need: Need, needs: &Needs) -> bool {
         Need::RulePredictive => matches!(needs.rule, Rule::Predictive | Rule::Hierarchical),
         Need::Attachments => needs.attachments,
         Need::Strands => needs.rule == Rule::Hierarchical,
-        Need::SewnStrands => needs.rule == Rule::Hierarchical && !needs.seams,
+        Need::Guard => needs.guard(),
+        Need::GuardOnBody => needs.guard() && needs.body(),
         Need::RulePosition => needs.rule == Rule::Position,
         Need::Polish => needs.polish,
     }

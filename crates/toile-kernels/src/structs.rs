@@ -44,6 +44,10 @@ pub struct StepParams {
     pub drag: f32,
     /// Lift coefficient [1].
     pub lift: f32,
+    /// Distance kept from the bodies [m].
+    pub thickness: f32,
+    /// How much the guard shortens a spring at once [m].
+    pub guard_way: f32,
     /// Part of the threshold that the limits hold [1].
     pub aim: f32,
     /// Number of structural and shear springs, whose limits are the first.

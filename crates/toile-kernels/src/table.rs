@@ -88,8 +88,10 @@ pub enum Need {
     RulePosition,
     /// Strands, under the rule Hierarchical.
     Strands,
-    /// Strands of a cloth without open seams.
-    SewnStrands,
+    /// Limits of a cloth without open seams, under the rule Hierarchical.
+    Guard,
+    /// The same, and any body.
+    GuardOnBody,
     /// Pins under the rule Hierarchical.
     Attachments,
     /// Limits under a predictive rule, with a polish.
@@ -189,8 +191,10 @@ kernels! {
     Collide "step" "collide" Sweep Particle Body;
     /// Seams close at a set speed; last of all, so that a seam that a tight fit holds open closes all the same.
     CloseSeams "step" "close_seams" Sweep SeamColour Seams;
-    /// No contact leaves a spring stretched far beyond its limit. Seams that are still open would be held apart by it.
-    LimitGuard "step" "limit_guard" AfterSweeps LimitColour SewnStrands;
+    /// No contact leaves a spring stretched far beyond its limit.
+    LimitGuard "step" "limit_guard" AfterSweeps LimitColour Guard;
+    /// Cloth gives way into its thickness for it, and no deeper.
+    KeepOut "step" "keep_out" AfterSweeps Particle GuardOnBody;
     /// Whether the coming move would stretch a spring beyond the target of a polish.
     MeasureExcess "step" "measure_excess" Polish Limit Polish;
     /// Further sweeps while it would, at most so many.

@@ -68,6 +68,11 @@ impl Needs {
         }
     }
 
+    /// Whether single springs have the last word. Seams that are still open would be held apart by them.
+    pub fn guard(&self) -> bool {
+        self.rule == Rule::Hierarchical && !self.seams
+    }
+
     /// Whether there is any body to collide with.
     pub fn body(&self) -> bool {
         self.maps != Maps::None || self.sphere

@@ -9,8 +9,8 @@ use toile_scene::{Friction, Polish, Rule, Settings, Wind};
 /// whips or slaps on a body and longer limits are slack.
 const LIMIT_PASSES: u32 = 3;
 
-/// Passes over single springs after all sweeps. After one, springs of the first colours still have what the others gave back: in a whip of
-/// 512 × 512 particles at 1 % as much again as the limit allows.
+/// Passes over single springs after all sweeps. In one, springs of the first colours get back part of what they lost from those that come
+/// after them.
 const GUARD_PASSES: u32 = 2;
 
 /// Twenty times the weight of the cloth: of cotton about 30 Pa, as if it were drawn with 3 N/m around a waist [m/s²].
@@ -107,6 +107,11 @@ impl StepSettings {
     /// How often the guard goes over the limits of single springs at the end of a step.
     pub fn guard_passes(&self) -> u32 {
         GUARD_PASSES
+    }
+
+    /// How much the guard shortens a spring at once [m]: the thickness in all its passes, for that is what it has to give way.
+    pub fn guard_way(&self) -> f32 {
+        self.thickness / GUARD_PASSES as f32
     }
 
     /// The change of normal speed by one sweep that friction counts at most [m/s]: what [`Self::pressing`] gives in a step, in equal parts;

@@ -1,6 +1,6 @@
 //! What a step does with all limits of a cloth, colour by colour: [`Reference`](crate::Reference) without forces and bodies.
 
-use crate::{Contact, Particles, step};
+use crate::{Contact, Particles, Probe, step};
 use std::ops::Range;
 use toile_model::{Model, StepSettings};
 use toile_scene::Rule;
@@ -48,14 +48,16 @@ pub fn sweep(
     }
 }
 
-/// After the sweeps, where no seam is open: no contact leaves a spring stretched far beyond its limit.
-pub fn guard(particles: &mut Particles, model: &Model, settings: &StepSettings) {
+/// After the sweeps, where no seam is open: no contact leaves a spring stretched far beyond its limit, and no particle goes deeper into a
+/// body for it than the cloth is thick. `probes` are what the particles saw in the last sweep, shape [particle_count], empty without body.
+pub fn guard(particles: &mut Particles, model: &Model, settings: &StepSettings, probes: &[Probe]) {
     if settings.rule != Rule::Hierarchical || settings.sweeps == 0 || !model.seam_pairs.is_empty() {
         return;
     }
     for colour in (0..settings.guard_passes()).flat_map(|_| &model.limit_colours) {
-        step::limit_guard(particles, part(&model.limits, colour), settings.dt);
+        step::limit_guard(particles, part(&model.limits, colour), settings);
     }
+    step::keep_out(particles, probes, settings);
 }
 
 /// The items of a colour.

@@ -66,6 +66,8 @@ pub struct Reference {
     particles: Particles,
     /// Contacts of the last step, shape [particle_count]; empty without body.
     contacts: Vec<Contact>,
+    /// What the particles saw in the last sweep, shape [particle_count]; empty without body.
+    probes: Vec<Probe>,
     /// What each limit pulled with in the last step [N·s], shape [limit_count].
     limit_impulses: Vec<f32>,
     polish: PolishState,
@@ -80,6 +82,7 @@ impl Reference {
         Self {
             particles: Particles::new(model),
             contacts: vec![Contact::default(); contact_count],
+            probes: Vec::new(),
             limit_impulses: vec![0.0; model.limits.len()],
             model: model.clone(),
             settings: settings.clone(),
@@ -140,11 +143,11 @@ impl Reference {
         for _ in 0..self.settings.sweeps.max(1) {
             self.sweep(lag);
         }
-        limits::guard(&mut self.particles, &self.model, &self.settings);
+        limits::guard(&mut self.particles, &self.model, &self.settings, &self.probes);
         if let Some(polish) = self.polishes() {
             while self.grants_sweep(polish) {
                 self.sweep(lag);
-                limits::guard(&mut self.particles, &self.model, &self.settings);
+                limits::guard(&mut self.particles, &self.model, &self.settings, &self.probes);
             }
         }
         let Self { model, settings, particles, .. } = self;
@@ -187,14 +190,14 @@ impl Reference {
 
     fn collide(&mut self, lag: Lag) {
         let midpoints = step::quad_midpoints(&self.particles.positions, &self.particles.velocities, &self.model.quads);
-        let quads = self.probes(&midpoints.positions, &midpoints.velocities, lag);
-        let own = self.probes(&self.particles.positions, &self.particles.velocities, lag);
-        let probes = step::Probes { particles: &own, quads: &quads };
+        let quads = self.probes_of(&midpoints.positions, &midpoints.velocities, lag);
+        self.probes = self.probes_of(&self.particles.positions, &self.particles.velocities, lag);
+        let probes = step::Probes { particles: &self.probes, quads: &quads };
         self.contacts =
             step::collide(&mut self.particles, &self.model.particle_quads, &midpoints, probes, &self.settings);
     }
 
-    fn probes(&self, positions: &[Vec3], velocities: &[Vec3], lag: Lag) -> Vec<Probe> {
+    fn probes_of(&self, positions: &[Vec3], velocities: &[Vec3], lag: Lag) -> Vec<Probe> {
         let mut probes = match &self.colliders.maps {
             Some(maps) if maps.velocities.is_some() => {
                 step::sample_moving_maps(positions, velocities, maps, lag, &self.settings)

@@ -141,8 +141,8 @@ pub enum Rule {
     /// half of the impulse that it ended the last one with.
     Predictive,
     /// The same, and before it on limits that span 2, 4, 8… cells, the longest first, so that a sweep reaches far; and where the cloth
-    /// has pins, from each of them outward. After the sweeps no contact may leave a spring stretched more than twice as far as its limit, unless
-    /// seams are open.
+    /// has pins, from each of them outward. After the sweeps no contact may leave a spring stretched more than twice as far as its limit, as far as
+    /// the thickness of the cloth gives way, unless seams are open.
     Hierarchical,
 }
 

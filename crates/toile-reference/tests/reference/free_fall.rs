@@ -120,7 +120,9 @@ fn average_and_predictive_keep_momentum() {
         step::warm_start(particles, limits, &mut vec![1e-4; limits.len()]);
     });
     assert!(acted && error < 1e-6, "warm start {error}");
-    let (error, acted) = momentum_error(|particles, limits| step::limit_guard(particles, limits, 0.01));
+    let (error, acted) = momentum_error(|particles, limits| {
+        step::limit_guard(particles, limits, &StepSettings { dt: 0.01, ..settings() })
+    });
     assert!(acted && error < 1e-6, "guard {error}");
 }
 

@@ -3,6 +3,7 @@
 mod contact;
 mod distance;
 mod free_fall;
+mod keep_out;
 mod life;
 mod limit_guard;
 mod limits;

@@ -1,9 +1,10 @@
 //! Sewing: seams that close, edges that are held, and the handover.
 
-use crate::support::{Grid, Parts, momentum, settings};
+use crate::support::{Grid, Parts, THRESHOLD, momentum, settings};
 use glam::{Vec3, vec3};
-use toile_model::{Csr, Hold, Merge, Model, SeamPair, StepSettings};
+use toile_model::{Csr, Hold, Merge, Model, SeamPair, Spring, SpringKind, StepSettings};
 use toile_reference::{Colliders, Particles, Reference, frame, step};
+use toile_scene::Rule;
 
 fn two_particles() -> Model {
     let mut model =
@@ -25,6 +26,28 @@ fn a_seam_closes_at_its_speed_and_stays_closed() {
     }
     let meeting = vec3(0.3, 0.0, 0.4) * 0.75;
     assert!(reference.positions()[0].distance(meeting) < 1e-5, "they meet at the centre of mass");
+}
+
+#[test]
+fn a_seam_that_a_tight_fit_holds_open_closes_all_the_same() {
+    let spring =
+        |ends| Spring { ends, kind: SpringKind::Structural, rest_length: 0.1, stiffness: 1.0, threshold: THRESHOLD };
+    let mut model = Parts {
+        positions: [0.0, 0.1, 0.14, 0.24].map(|x| x * Vec3::X).to_vec(),
+        masses: vec![1.0; 4],
+        pins: vec![0, 3],
+        springs: vec![spring([0, 1]), spring([2, 3])],
+        ..Parts::default()
+    }
+    .model();
+    model.seam_pairs = vec![SeamPair { ends: [1, 2], closing_speed: 0.2, seam: 0 }];
+    model.seam_colours = std::iter::once(0..1).collect();
+    let settings =
+        StepSettings { gravity: Vec3::ZERO, damping: 5.0, rule: Rule::Hierarchical, sweeps: 3, ..settings() };
+    let mut reference = Reference::new(&model, &settings, Colliders::default());
+    (0..600).for_each(|_| reference.step());
+    let gap = reference.status().seam_gap_max;
+    assert!(gap < 1e-5, "a fifth longer than at rest, further than the guard allows, they meet: {gap} m apart");
 }
 
 #[test]

@@ -193,6 +193,8 @@ impl Input {
             wind: wind.velocity.as_vec3(),
             drag: wind.drag as f32,
             lift: wind.lift as f32,
+            thickness: s.thickness,
+            guard_way: s.guard_way(),
             aim: s.aim(),
             limit_count: self.limits.len() as u32,
         }

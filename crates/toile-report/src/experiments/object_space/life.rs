@@ -22,6 +22,7 @@ pub struct Life<'a> {
     collision: &'a Collision,
     particles: Particles,
     contacts: Vec<Contact>,
+    probes: Vec<Probe>,
     limit_impulses: Vec<f32>,
     /// Steps done.
     pub steps: u32,
@@ -40,6 +41,7 @@ impl<'a> Life<'a> {
             collision,
             particles: Particles::new(model),
             contacts: vec![Contact::default(); model.positions.len()],
+            probes: Vec::new(),
             limit_impulses: vec![0.0; model.limits.len()],
             steps: 0,
             collision_time: Duration::ZERO,
@@ -61,7 +63,7 @@ impl<'a> Life<'a> {
             limits::sweep(particles, model, settings, None, limit_impulses);
             self.collide();
         }
-        limits::guard(&mut self.particles, self.model, &self.settings);
+        limits::guard(&mut self.particles, self.model, &self.settings, &self.probes);
         step::move_particles(&mut self.particles.positions, &self.particles.velocities, dt);
         self.steps += 1;
         self.time += start.elapsed();
@@ -87,6 +89,7 @@ impl<'a> Life<'a> {
         };
         let probes = step::Probes { particles: &own, quads: &quads };
         self.contacts = step::collide(particles, &model.particle_quads, &midpoints, probes, settings);
+        self.probes = own;
         self.collision_time += start.elapsed();
     }
 
