@@ -33,9 +33,15 @@ pub fn check(folder: &Path) -> Result<()> {
         .with_context(|| format!("--out {}: cannot write to {}", folder.display(), existing.display()))
 }
 
-/// Writes bodies and cloths, the cloths alone, three pictures and the metrics.
-pub fn write(folder: &Path, bodies: &[Shown<'_>], cloths: &[Shown<'_>], metrics: &Metrics) -> Result<()> {
-    write_whole(folder, |unfinished| write_files(unfinished, bodies, cloths, metrics))
+/// Writes bodies and cloths, the cloths alone, pictures of them with the thickness of the cloths [m], and the metrics.
+pub fn write(
+    folder: &Path,
+    bodies: &[Shown<'_>],
+    cloths: &[Shown<'_>],
+    thickness: f64,
+    metrics: &Metrics,
+) -> Result<()> {
+    write_whole(folder, |unfinished| write_files(unfinished, bodies, cloths, thickness, metrics))
 }
 
 /// Writes files to a folder of another name, and moves them to `folder` once all are there.
@@ -69,17 +75,22 @@ fn existing(folder: &Path) -> &Path {
         .unwrap_or(Path::new("."))
 }
 
-fn write_files(folder: &Path, bodies: &[Shown<'_>], cloths: &[Shown<'_>], metrics: &Metrics) -> Result<()> {
+fn write_files(
+    folder: &Path,
+    bodies: &[Shown<'_>],
+    cloths: &[Shown<'_>],
+    thickness: f64,
+    metrics: &Metrics,
+) -> Result<()> {
     let mut meshes = Vec::new();
     let mut drawn = Vec::new();
     for Shown { name, mesh } in bodies {
         meshes.push(NamedMesh { name, mesh, colour: Material::SKIN.linear_outside() });
-        drawn.push(Drawn { mesh, material: Material::SKIN });
+        drawn.push(Drawn::body(mesh));
     }
     for (index, Shown { name, mesh }) in cloths.iter().enumerate() {
-        let material = Material::cloth(index);
-        meshes.push(NamedMesh { name, mesh, colour: material.linear_outside() });
-        drawn.push(Drawn { mesh, material });
+        meshes.push(NamedMesh { name, mesh, colour: Material::cloth(index).linear_outside() });
+        drawn.push(Drawn::cloth(mesh, index, thickness));
     }
     write_glb(&folder.join("dressed.glb"), &meshes)?;
     write_obj(&folder.join("garment.obj"), &joined(cloths))?;

@@ -32,6 +32,21 @@ pub struct Drawn<'a> {
     pub mesh: &'a Mesh,
     /// What it looks like.
     pub material: Material,
+    /// How far what is seen of it stands out from its vertices along their normals [m].
+    pub thickness: f32,
+}
+
+impl<'a> Drawn<'a> {
+    /// A body.
+    pub fn body(mesh: &'a Mesh) -> Self {
+        Self { mesh, material: Material::SKIN, thickness: 0.0 }
+    }
+
+    /// The outer face of a cloth by its place in the order of dressing. It is as far from the particles as these keep from a body: what
+    /// stands up between particles by less is under the cloth.
+    pub fn cloth(mesh: &'a Mesh, index: usize, thickness: f64) -> Self {
+        Self { mesh, material: Material::cloth(index), thickness: thickness as f32 }
+    }
 }
 
 /// What a surface looks like. Both sides of every triangle are drawn.

@@ -61,7 +61,7 @@ pub fn simulate(file: &SceneFile, running: &Running) -> Result<()> {
     let mut bodies: Vec<Shown<'_>> = meshes(scene).map(|mesh| Shown { name: "body", mesh }).collect();
     bodies.extend(ball.as_ref().map(|mesh| Shown { name: "sphere", mesh }));
     let cloths: Vec<Shown<'_>> = all.iter().map(|worn| Shown { name: &worn.name, mesh: &worn.mesh }).collect();
-    output::write(&running.out, &bodies, &cloths, &metrics)?;
+    output::write(&running.out, &bodies, &cloths, scene.settings.fabric.thickness, &metrics)?;
     if running.json {
         print(&serde_json::to_string_pretty(&metrics)?)?;
     } else if !running.quiet {

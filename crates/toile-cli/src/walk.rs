@@ -219,7 +219,7 @@ fn simulate(walk: &Walk, gpu: &Gpu, walkers: &[Walker], saved: &Saved, running: 
             cloths.push(Mesh { positions: state.positions(), normals, triangles: walker.triangles.clone() });
             states.push(state);
         }
-        let views = draw(&body, &cloths, stage.at(f64::from(frame) * seconds))?;
+        let views = draw(&body, &cloths, walk.settings.fabric.thickness, stage.at(f64::from(frame) * seconds))?;
         picture::save_png(&picture_path(&running.out, frame), &picture::strip(&views))?;
         row.output_ms = 1e3 * output.elapsed().as_secs_f64();
         saved.write(frame, &states, Some(&row))?;
@@ -276,9 +276,9 @@ fn progress(frame_count: u32, done: u32, quiet: bool) -> ProgressBar {
 }
 
 /// The two views of a frame.
-fn draw(body: &Mesh, cloths: &[Mesh], stage: [Vec3; 2]) -> Result<Vec<RgbImage>> {
-    let mut drawn = vec![Drawn { mesh: body, material: Material::SKIN }];
-    drawn.extend(cloths.iter().enumerate().map(|(i, mesh)| Drawn { mesh, material: Material::cloth(i) }));
+fn draw(body: &Mesh, cloths: &[Mesh], thickness: f64, stage: [Vec3; 2]) -> Result<Vec<RgbImage>> {
+    let mut drawn = vec![Drawn::body(body)];
+    drawn.extend(cloths.iter().enumerate().map(|(i, mesh)| Drawn::cloth(mesh, i, thickness)));
     let views = [View::ThreeQuarter, View::Side].map(|view| picture::render_in(&drawn, stage, view, PICTURE_HEIGHT));
     Ok(views.into_iter().collect::<Result<Vec<_>, _>>()?)
 }
@@ -303,7 +303,7 @@ fn draw_strip(walk: &Walk, walkers: &[Walker], saved: &Saved, folder: &Path) -> 
             Ok(mesh)
         };
         let cloths = walkers.iter().enumerate().map(cloth).collect::<Result<Vec<_>>>()?;
-        let drawn = draw(&walk.body.at(time), &cloths, stage.at(time))?;
+        let drawn = draw(&walk.body.at(time), &cloths, walk.settings.fabric.thickness, stage.at(time))?;
         views.iter_mut().zip(drawn).for_each(|(row, view)| row.push(view));
     }
     Ok(picture::save_png(&folder.join("walk.png"), &picture::stack(&views.map(|row| picture::strip(&row))))?)

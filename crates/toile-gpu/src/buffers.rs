@@ -1,12 +1,12 @@
 //! The buffers of a plan: those that its kernels name, and no other.
 
-use crate::{GpuError, Plan};
+use crate::{GpuError, Plan, step_params};
 use encase::{ShaderType, StorageBuffer, UniformBuffer, internal::WriteInto};
-use glam::{DVec3, Vec3, Vec4};
+use glam::{Vec3, Vec4};
 use std::collections::BTreeMap;
 use toile_kernels::{Binding, Interface, Resource, WORKGROUP_SIZE, structs};
 use toile_model::{Model, StepSettings};
-use toile_scene::{Friction, Polish, Wind};
+use toile_scene::Polish;
 use wgpu::util::DeviceExt;
 
 /// Bytes from one entry of a moving uniform to the next: the alignment that every WebGPU device accepts.
@@ -132,7 +132,12 @@ fn contents(name: &str, model: &Model, settings: &StepSettings, plan: &Plan) -> 
     let particles = u64::from(model.particle_count());
     let quads = u64::from(model.quad_count());
     match name {
-        "step" => uniform(&step_params(model, settings)),
+        "step" => uniform(&structs::StepParams {
+            particle_count: model.particle_count(),
+            quad_count: model.quad_count(),
+            limit_count: model.limits.len() as u32,
+            ..step_params(settings)
+        }),
         "span" => Contents::Bytes(spans(model)),
         "ball" | "lag" => Contents::Zeros(u64::from(settings.steps_per_frame) * MOVING_UNIFORM_STRIDE),
         "positions" => {
@@ -211,40 +216,6 @@ fn contents(name: &str, model: &Model, settings: &StepSettings, plan: &Plan) -> 
         "status" => zeroed::<structs::Status>(1),
         "energy_partials" => Contents::Zeros(4 * particles.div_ceil(u64::from(WORKGROUP_SIZE))),
         other => panic!("the kernels name a buffer {other} that has no contents here"),
-    }
-}
-
-fn step_params(model: &Model, settings: &StepSettings) -> structs::StepParams {
-    let (friction_law, velocity_kept, force_removed) = match settings.law {
-        Friction::Coulomb => (0, 0.0, 0.0),
-        Friction::Papers { velocity_kept, force_removed } => (1, velocity_kept as f32, force_removed as f32),
-    };
-    let still = Wind { velocity: DVec3::ZERO, drag: 0.0, lift: 0.0 };
-    let wind = settings.wind.unwrap_or(still);
-    structs::StepParams {
-        gravity: settings.gravity,
-        dt: settings.dt,
-        damping: settings.damping,
-        push_speed: settings.push_speed_per_sweep(),
-        pressing_speed: settings.pressing_speed_per_sweep(),
-        contact_margin: settings.contact_margin,
-        reflection: settings.reflection,
-        friction_law,
-        friction: settings.friction,
-        velocity_kept,
-        force_removed,
-        hold_rate: settings.hold_rate,
-        hold_speed: settings.hold_speed,
-        particle_count: model.particle_count(),
-        quad_count: model.quad_count(),
-        swept: u32::from(settings.swept),
-        wind: wind.velocity.as_vec3(),
-        drag: wind.drag as f32,
-        lift: wind.lift as f32,
-        thickness: settings.thickness,
-        guard_way: settings.guard_way(),
-        aim: settings.aim(),
-        limit_count: model.limits.len() as u32,
     }
 }
 

@@ -12,6 +12,7 @@ mod program;
 pub mod readback;
 mod solver;
 mod status;
+mod step_params;
 mod timing;
 mod trail;
 
@@ -21,6 +22,7 @@ pub use moving_body::MovingBody;
 pub use plan::{KernelRuns, Pass, Plan, kernel_runs};
 pub use program::Program;
 pub use solver::{Colliders, Solver};
+pub use step_params::step_params;
 pub use timing::{PassTime, Timer};
 pub use toile_kernels::Kernel;
 pub use trail::Trail;

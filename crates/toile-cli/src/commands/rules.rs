@@ -6,7 +6,7 @@ use crate::commands::print;
 use crate::engine::Computer;
 use crate::interrupt::Interrupted;
 use crate::output;
-use crate::picture::{self, Drawn, Material, View};
+use crate::picture::{self, Drawn, View};
 use crate::progress::Progress;
 use crate::simulate::sphere;
 use crate::sphere_mesh::sphere_mesh;
@@ -62,8 +62,8 @@ pub fn run(arguments: &Rules) -> Result<()> {
     let mut pictures = Vec::new();
     for (name, rule) in RULES {
         let (row, mesh, ball) = try_rule(&file, name, rule, &computer, running.quiet || running.json)?;
-        let mut drawn = vec![Drawn { mesh: &mesh, material: Material::cloth(0) }];
-        drawn.extend(ball.as_ref().map(|mesh| Drawn { mesh, material: Material::SKIN }));
+        let mut drawn = vec![Drawn::cloth(&mesh, 0, file.scene.settings.fabric.thickness)];
+        drawn.extend(ball.as_ref().map(Drawn::body));
         pictures.push(picture::render(&drawn, View::ThreeQuarter, PICTURE_HEIGHT)?);
         rows.push(row);
     }

@@ -26,9 +26,7 @@ impl Soup {
     /// Gathers the meshes and refuses what cannot be drawn. The box is that around them, or the given one.
     pub fn new(drawn: &[Drawn], stage: Option<[Vec3; 2]>) -> Result<Self, PictureError> {
         refuse_non_finite(drawn)?;
-        let used = drawn
-            .iter()
-            .flat_map(|d| d.mesh.triangles.iter().flatten().map(|i| d.mesh.positions[*i as usize].as_dvec3()));
+        let used = drawn.iter().flat_map(|d| d.mesh.triangles.iter().flatten().map(|i| seen(d, *i)));
         let around = used.fold((DVec3::splat(f64::INFINITY), DVec3::splat(f64::NEG_INFINITY)), |(low, high), p| {
             (low.min(p), high.max(p))
         });
@@ -48,14 +46,14 @@ impl Soup {
             half: (0.5 * (high - low) / radius).as_vec3(),
             framed: Vec::new(),
         };
-        for (index, Drawn { mesh, .. }) in drawn.iter().enumerate() {
+        for (index, drawn) in drawn.iter().enumerate() {
+            let mesh = drawn.mesh;
             // Only vertices that a triangle uses: the others may lie far outside the frame.
             let mut places = vec![None; mesh.positions.len()];
             for t in &mesh.triangles {
                 let corners = t.map(|i| {
                     *places[i as usize].get_or_insert_with(|| {
-                        let from_centre = mesh.positions[i as usize].as_dvec3() - centre;
-                        soup.positions.push((from_centre / radius).as_vec3());
+                        soup.positions.push(((seen(drawn, i) - centre) / radius).as_vec3());
                         soup.normals.push(mesh.normals[i as usize]);
                         soup.positions.len() as u32 - 1
                     })
@@ -67,6 +65,12 @@ impl Soup {
         soup.framed = if stage.is_some() { upright_cylinder(soup.half) } else { soup.positions.clone() };
         Ok(soup)
     }
+}
+
+/// Where a vertex is seen.
+fn seen(drawn: &Drawn, vertex: u32) -> DVec3 {
+    let [position, normal] = [&drawn.mesh.positions, &drawn.mesh.normals].map(|all| all[vertex as usize].as_dvec3());
+    position + normal * f64::from(drawn.thickness)
 }
 
 /// Points on the rims of an upright cylinder that is as high as a box and as wide as its wider side.

@@ -39,7 +39,8 @@ fn flipped(mut mesh: Mesh) -> Mesh {
 }
 
 fn picture(meshes: &[(&Mesh, Material)], view: View) -> RgbImage {
-    let drawn: Vec<_> = meshes.iter().map(|(mesh, material)| Drawn { mesh, material: *material }).collect();
+    let drawn: Vec<_> =
+        meshes.iter().map(|(mesh, material)| Drawn { mesh, material: *material, thickness: 0.0 }).collect();
     render(&drawn, view, 240).expect("a finite scene has a picture")
 }
 
@@ -147,13 +148,24 @@ fn what_stands_between_throws_a_shadow() {
 }
 
 #[test]
+fn a_cloth_hides_what_stands_up_by_less_than_its_thickness() {
+    let [cloth, bump] = [1.0, 1.02].map(|radius| ball(Vec3::ZERO, radius));
+    let reds = [0.0, 0.03].map(|thickness| {
+        let drawn =
+            [Drawn { mesh: &cloth, material: GREEN, thickness }, Drawn { mesh: &bump, material: RED, thickness: 0.0 }];
+        count(&render(&drawn, View::Front, 240).expect("a picture"), is_red)
+    });
+    assert!(reds[0] > 1000 && reds[1] == 0, "{reds:?}");
+}
+
+#[test]
 fn non_finite_vertices_are_refused() {
     let sound = ball(Vec3::ZERO, 1.0);
     let mut broken = sound.clone();
     broken.positions[17].y = f32::NAN;
     broken.positions[20].x = f32::INFINITY;
     broken.normals[30].z = f32::NEG_INFINITY;
-    let drawn = [&sound, &broken].map(|mesh| Drawn { mesh, material: GREEN });
+    let drawn = [&sound, &broken].map(|mesh| Drawn { mesh, material: GREEN, thickness: 0.0 });
     let error = render(&drawn, View::Front, 100).expect_err("three vertices are nowhere");
     assert!(matches!(error, PictureError::NonFinite { count: 3, mesh: 1, vertex: 17 }), "{error:?}");
     assert!(error.to_string().contains("3 vertices") && error.to_string().contains("vertex 17 of mesh 1"));
@@ -163,7 +175,7 @@ fn non_finite_vertices_are_refused() {
 fn nothing_to_see_is_refused() {
     let point = Mesh { positions: vec![Vec3::ONE; 3], normals: vec![Vec3::Y; 3], triangles: vec![[0, 1, 2]] };
     for mesh in [Mesh::default(), point] {
-        let result = render(&[Drawn { mesh: &mesh, material: GREEN }], View::Front, 100);
+        let result = render(&[Drawn { mesh: &mesh, material: GREEN, thickness: 0.0 }], View::Front, 100);
         assert!(matches!(result, Err(PictureError::Empty)));
     }
 }

@@ -3,11 +3,11 @@
 use super::Inputs;
 use crate::Layers;
 use encase::{ShaderType, StorageBuffer, UniformBuffer, internal::WriteInto};
-use glam::{DVec3, Vec3, Vec4};
+use glam::{Vec3, Vec4};
 use std::ops::Range;
-use toile::gpu::BodyMaps;
+use toile::gpu::{BodyMaps, step_params};
 use toile::model::{Attachment, Csr, Hold, Limit, Link, Model, SeamPair, StepSettings, Strand};
-use toile::scene::{Friction, Polish, Pose, Skin, Wind};
+use toile::scene::{Polish, Pose, Skin};
 use toile_kernels::structs;
 use toile_reference::step::PolishState;
 use toile_reference::{Ball, Contact, Lag, Midpoints, Particles, Probe};
@@ -164,47 +164,17 @@ impl Input {
     pub fn polish(&self) -> Polish {
         self.settings.polish.expect("the input has a polish")
     }
-
-    fn step_params(&self) -> structs::StepParams {
-        let s = &self.settings;
-        let (friction_law, velocity_kept, force_removed) = match s.law {
-            Friction::Coulomb => (0, 0.0, 0.0),
-            Friction::Papers { velocity_kept, force_removed } => (1, velocity_kept as f32, force_removed as f32),
-        };
-        let still = Wind { velocity: DVec3::ZERO, drag: 0.0, lift: 0.0 };
-        let wind = s.wind.unwrap_or(still);
-        structs::StepParams {
-            gravity: s.gravity,
-            dt: s.dt,
-            damping: s.damping,
-            push_speed: s.push_speed_per_sweep(),
-            pressing_speed: s.pressing_speed_per_sweep(),
-            contact_margin: s.contact_margin,
-            reflection: s.reflection,
-            friction_law,
-            friction: s.friction,
-            velocity_kept,
-            force_removed,
-            hold_rate: s.hold_rate,
-            hold_speed: s.hold_speed,
-            particle_count: self.particles.positions.len() as u32,
-            quad_count: self.quads.len() as u32,
-            swept: u32::from(s.swept),
-            wind: wind.velocity.as_vec3(),
-            drag: wind.drag as f32,
-            lift: wind.lift as f32,
-            thickness: s.thickness,
-            guard_way: s.guard_way(),
-            aim: s.aim(),
-            limit_count: self.limits.len() as u32,
-        }
-    }
 }
 
 impl Inputs for Input {
     fn bytes(&self, name: &str) -> Vec<u8> {
         match name {
-            "step" => uniform(&self.step_params()),
+            "step" => uniform(&structs::StepParams {
+                particle_count: self.particles.positions.len() as u32,
+                quad_count: self.quads.len() as u32,
+                limit_count: self.limits.len() as u32,
+                ..step_params(&self.settings)
+            }),
             "span" => uniform(&structs::Span { first: self.span.start, count: self.span.end - self.span.start }),
             "ball" => uniform(&structs::Ball {
                 centre: self.ball.centre,

@@ -1,0 +1,41 @@
+//! The numbers of a step, as the kernels read them.
+
+use glam::DVec3;
+use toile_kernels::structs::StepParams;
+use toile_model::StepSettings;
+use toile_scene::{Friction, Wind};
+
+/// What the kernels read of the settings. The counts, which are those of a cloth, are 0.
+pub fn step_params(settings: &StepSettings) -> StepParams {
+    let (friction_law, velocity_kept, force_removed) = match settings.law {
+        Friction::Coulomb => (0, 0.0, 0.0),
+        Friction::Papers { velocity_kept, force_removed } => (1, velocity_kept as f32, force_removed as f32),
+    };
+    let still = Wind { velocity: DVec3::ZERO, drag: 0.0, lift: 0.0 };
+    let wind = settings.wind.unwrap_or(still);
+    StepParams {
+        gravity: settings.gravity,
+        dt: settings.dt,
+        damping: settings.damping,
+        push_speed: settings.push_speed_per_sweep(),
+        pressing_speed: settings.pressing_speed_per_sweep(),
+        contact_margin: settings.contact_margin,
+        reflection: settings.reflection,
+        friction_law,
+        friction: settings.friction,
+        velocity_kept,
+        force_removed,
+        hold_rate: settings.hold_rate,
+        hold_speed: settings.hold_speed,
+        particle_count: 0,
+        quad_count: 0,
+        swept: u32::from(settings.swept),
+        wind: wind.velocity.as_vec3(),
+        drag: wind.drag as f32,
+        lift: wind.lift as f32,
+        thickness: settings.thickness,
+        guard_way: settings.guard_way(),
+        aim: settings.aim(),
+        limit_count: 0,
+    }
+}
