@@ -1,10 +1,10 @@
 //! The program from outside, as a person or a script meets it.
 
+use crate::support::{Journey, fixture, good, json, list, refused};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
-use tempfile::TempDir;
+use std::process::Command;
 
 /// The files of every run.
 const FILES: [&str; 8] = [
@@ -17,70 +17,6 @@ const FILES: [&str; 8] = [
     "side.png",
     "three_quarter.png",
 ];
-
-/// Calls of the program in an empty folder, on a machine without a session.
-struct Journey {
-    folder: TempDir,
-}
-
-impl Journey {
-    fn new() -> Self {
-        Self { folder: TempDir::new().expect("a temporary folder") }
-    }
-
-    fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_toile"));
-        command.args(arguments).current_dir(&self.folder);
-        command.env_remove("XDG_RUNTIME_DIR").env_remove("NODEVICE_SELECT");
-        command
-    }
-
-    fn run(&self, arguments: &[&str]) -> Output {
-        self.command(arguments).output().expect("the program starts")
-    }
-
-    /// Names of everything in a folder of it, sorted.
-    fn names(&self, below: &str) -> Vec<String> {
-        let entries = fs::read_dir(self.folder.path().join(below)).expect("a folder");
-        let mut names: Vec<_> =
-            entries.map(|entry| entry.expect("an entry").file_name().into_string().expect("a plain name")).collect();
-        names.sort();
-        names
-    }
-
-    fn metrics(&self, folder: &str) -> Value {
-        json(&fs::read_to_string(self.folder.path().join(folder).join("metrics.json")).expect("the metrics"))
-    }
-}
-
-fn fixture(path: &str) -> String {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures");
-    root.canonicalize().expect("the fixtures").join(path).display().to_string()
-}
-
-/// The output of a run that succeeds and says nothing beside it.
-fn good(output: Output) -> String {
-    let said = String::from_utf8(output.stderr).expect("UTF-8 text");
-    assert_eq!((output.status.code(), said.as_str()), (Some(0), ""));
-    String::from_utf8(output.stdout).expect("UTF-8 text")
-}
-
-/// The one sentence of a run that fails.
-fn refused(output: Output) -> String {
-    let said = String::from_utf8(output.stderr).expect("UTF-8 text");
-    assert_eq!((output.status.code(), output.stdout.as_slice()), (Some(2), &[][..]), "{said}");
-    let sentence = said.strip_prefix("error: ").unwrap_or_else(|| panic!("no sentence of an error: {said}"));
-    assert_eq!(sentence.lines().count(), 1, "{said}");
-    sentence.trim_end().to_owned()
-}
-
-fn json(text: &str) -> Value {
-    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
-}
-
-fn list(value: &Value) -> &[Value] {
-    value.as_array().expect("a list")
-}
 
 #[test]
 fn adapters_are_listed_for_people_and_for_programs() {
@@ -490,19 +426,4 @@ fn a_walk_ends_in_the_same_drape_at_any_frame_rate() {
         let most = distances.iter().copied().fold(0.0, f64::max);
         assert!(mean > 0.0 && mean < 0.003 && most < 0.01, "{mean} m apart on average, at most {most} m");
     }
-}
-
-#[test]
-fn a_report_is_three_files_and_can_be_compared() {
-    let journey = Journey::new();
-    let output = journey.run(&["report", "--quick", "--only", "parity", "--out", "r"]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    assert_eq!(journey.names("r"), ["report-parity-2.svg", "report.html", "report.json", "report.md"]);
-    let page = fs::read_to_string(journey.folder.path().join("r/report.html")).expect("the page");
-    assert!(page.contains("GPU against reference") && page.contains("spring_forces") && !page.contains("src=\"http"));
-    let file = "r/report.json";
-    good(journey.run(&["report", "--compare", file, file, "--out", "c", "--json"]));
-    assert!(journey.names("c").contains(&"comparison.html".to_owned()), "{:?}", journey.names("c"));
-    fs::write(journey.folder.path().join("broken.json"), "{").expect("written");
-    assert!(refused(journey.run(&["report", "--compare", file, "broken.json"])).contains("broken.json"));
 }

@@ -1,0 +1,5 @@
+//! The program `toile` from outside.
+
+mod journey;
+mod report;
+mod support;
