@@ -83,15 +83,16 @@ impl Model {
     }
 }
 
-/// Direction of a structural or shear spring as the numbering row by row tells it: along the row, to the next row, and the diagonals to
-/// both sides of that. Exact on a grid; elsewhere no more than a good guess, which is all that colouring needs.
+/// Direction of a structural or shear spring as the numbering row by row tells it: the diagonals to both sides of the next row, along the
+/// row, and to the next row. Exact on a grid; elsewhere no more than a good guess, which is all that colouring needs. Diagonals come
+/// first: where cloth whips around, each colour is drawn out again by those after it, and diagonals least by warp and weft.
 fn family(spring: &Spring, above: &[Option<u32>]) -> Option<u32> {
     let [a, b] = spring.ends;
     match (spring.kind, above[a as usize]) {
-        (SpringKind::Structural, _) if b == a + 1 => Some(0),
-        (SpringKind::Structural, _) => Some(1),
-        (SpringKind::Shear, Some(above)) if b < above => Some(2),
-        (SpringKind::Shear, Some(_)) => Some(3),
+        (SpringKind::Shear, Some(above)) if b < above => Some(0),
+        (SpringKind::Shear, Some(_)) => Some(1),
+        (SpringKind::Structural, _) if b == a + 1 => Some(2),
+        (SpringKind::Structural, _) => Some(3),
         _ => None,
     }
 }

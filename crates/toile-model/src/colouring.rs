@@ -3,7 +3,7 @@
 use crate::Csr;
 use std::ops::Range;
 
-/// Number of families of [`Pair`]: warp, weft and the two diagonals.
+/// Number of families of [`Pair`]: the two diagonals, warp and weft.
 pub(crate) const FAMILIES: u32 = 4;
 
 /// Two particles that one colour must not touch twice.
