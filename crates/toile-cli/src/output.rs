@@ -33,17 +33,6 @@ pub fn check(folder: &Path) -> Result<()> {
         .with_context(|| format!("--out {}: cannot write to {}", folder.display(), existing.display()))
 }
 
-/// Writes bodies and cloths, the cloths alone, pictures of them with the thickness of the cloths [m], and the metrics.
-pub fn write(
-    folder: &Path,
-    bodies: &[Shown<'_>],
-    cloths: &[Shown<'_>],
-    thickness: f64,
-    metrics: &Metrics,
-) -> Result<()> {
-    write_whole(folder, |unfinished| write_files(unfinished, bodies, cloths, thickness, metrics))
-}
-
 /// Writes files to a folder of another name, and moves them to `folder` once all are there.
 pub fn write_whole(folder: &Path, write: impl FnOnce(&Path) -> Result<()>) -> Result<()> {
     let beside = existing(folder);
@@ -75,7 +64,8 @@ fn existing(folder: &Path) -> &Path {
         .unwrap_or(Path::new("."))
 }
 
-fn write_files(
+/// Writes bodies and cloths, the cloths alone, pictures of them with the thickness of the cloths [m], and the metrics.
+pub fn write(
     folder: &Path,
     bodies: &[Shown<'_>],
     cloths: &[Shown<'_>],

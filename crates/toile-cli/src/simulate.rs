@@ -61,7 +61,8 @@ pub fn simulate(file: &SceneFile, running: &Running) -> Result<()> {
     let mut bodies: Vec<Shown<'_>> = meshes(scene).map(|mesh| Shown { name: "body", mesh }).collect();
     bodies.extend(ball.as_ref().map(|mesh| Shown { name: "sphere", mesh }));
     let cloths: Vec<Shown<'_>> = all.iter().map(|worn| Shown { name: &worn.name, mesh: &worn.mesh }).collect();
-    output::write(&running.out, &bodies, &cloths, scene.settings.fabric.thickness, &metrics)?;
+    let thickness = scene.settings.fabric.thickness;
+    output::write_whole(&running.out, |folder| output::write(folder, &bodies, &cloths, thickness, &metrics))?;
     if running.json {
         print(&serde_json::to_string_pretty(&metrics)?)?;
     } else if !running.quiet {
