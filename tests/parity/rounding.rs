@@ -60,7 +60,7 @@ fn worn_strands() -> Input {
                 let reach = 1 << level;
                 input.strand_lengths.extend((reach..COUNT).map(|_| 0.03 * reach as f32));
             }
-            Strand { particles: start..start + COUNT, lengths, level_count: 3 }
+            Strand { particles: start..start + COUNT, stride: 1, lengths, level_count: 3 }
         })
         .collect();
     for i in 0..count as usize {

@@ -86,7 +86,8 @@ impl Drawing<'_> {
         }
         counts.attachments += self.attachments();
         let mut long = Vec::new();
-        for (strand, index) in cloth.strands.iter().zip(0..) {
+        // Strands of long lines go over the same line as others that show it from edge to edge.
+        for (strand, index) in cloth.strands.iter().filter(|strand| strand.stride == 1).zip(0..) {
             let particles = &cloth.strand_particles[strand.particles.start as usize..strand.particles.end as usize];
             let steps = self.layout.steps(particles);
             let direction = self.direction(particles, &steps);

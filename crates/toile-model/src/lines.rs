@@ -5,6 +5,7 @@ use crate::fan::opposite_neighbours;
 use crate::geometry::corners;
 use crate::{Csr, NO_CORNER, PanelMesh};
 use glam::DVec2;
+use std::collections::HashSet;
 use toile_scene::Threshold;
 
 /// A diagonal goes straight on where its direction changes by no more than the angle with this cosine [1].
@@ -182,9 +183,9 @@ impl<'a> Cloth<'a> {
 }
 
 impl Lines {
-    /// The lines, cut where a particle would come again and where they have so many particles, and across each cut a line of up to so
-    /// many edges to both sides: a ring is held where it is cut too.
-    pub(crate) fn cut(&self, particles_max: usize, edges_across: usize) -> Vec<Line> {
+    /// The lines, cut where a particle would come again, and across each cut a line of up to so many edges to both sides: a ring is held
+    /// where it is cut too.
+    pub(crate) fn cut(&self, edges_across: usize) -> Vec<Line> {
         let mut lines = Vec::new();
         let mut across = Vec::new();
         for chain in self.chains() {
@@ -195,7 +196,7 @@ impl Lines {
                 if is_cut {
                     across.extend(chain.around(start, edges_across));
                 }
-                let line = chain.line(start, particles_max - 1);
+                let line = chain.line(start);
                 start += line.steps.len();
                 lines.push(line);
             }
@@ -238,11 +239,13 @@ impl Lines {
 }
 
 impl Chain {
-    /// From a step on, at most so many edges and no particle twice.
-    fn line(&self, start: usize, edges_max: usize) -> Line {
-        let mut line = Line { particles: vec![self.steps[start].ends[0]], steps: Vec::new() };
-        for &edge in self.steps[start..].iter().take(edges_max) {
-            if line.particles.contains(&edge.ends[1]) {
+    /// From a step on, no particle twice.
+    fn line(&self, start: usize) -> Line {
+        let first = self.steps[start].ends[0];
+        let mut line = Line { particles: vec![first], steps: Vec::new() };
+        let mut met = HashSet::from([first]);
+        for &edge in &self.steps[start..] {
+            if !met.insert(edge.ends[1]) {
                 break;
             }
             line.particles.push(edge.ends[1]);
@@ -259,7 +262,7 @@ impl Chain {
         // Where the chain crosses itself so near to the cut, what is left of it reaches less far.
         (0..edges)
             .map(|less| Self { steps: steps[less..steps.len() - less].to_vec(), is_ring: false })
-            .map(|chain| (chain.line(0, chain.steps.len()), chain.steps.len()))
+            .map(|chain| (chain.line(0), chain.steps.len()))
             .find_map(|(line, count)| (line.steps.len() == count).then_some(line))
     }
 }

@@ -4,6 +4,7 @@ use crate::assemble::{aim, stretched};
 use crate::lines::{Cloth, Line};
 use crate::{Attachment, Csr, Limit, Model, Strand};
 use glam::DVec2;
+use std::ops::Range;
 
 /// Particles of a strand at most: what a workgroup holds in its memory.
 pub const STRAND_PARTICLES_MAX: u32 = 512;
@@ -13,8 +14,8 @@ const STRAND_PARTICLES_MIN: usize = 8;
 const PATH_CHORDS: usize = 4;
 /// Cells along the longest limits of a small cloth.
 const CELLS_MIN: usize = 8;
-/// Part of a square cloth that the longest limits span at least [1].
-const CELLS_PART: f64 = 1.0 / 16.0;
+/// Part of a square cloth that the longest limits span at most [1].
+const CELLS_PART: f64 = 1.0 / 8.0;
 /// Most pins, or groups of neighbouring pins, that one particle is attached to.
 const ATTACHMENT_COUNT: usize = 4;
 
@@ -23,37 +24,42 @@ impl Model {
     pub(crate) fn add_strands(&mut self, cloth: &Cloth<'_>) {
         let cells_max = CELLS_MIN.max(((cloth.particle_count as f64).sqrt() * CELLS_PART).round() as usize);
         let rims = cloth.rims();
-        let [sides, diagonals] = [cloth.side_lines(), cloth.diagonal_lines()]
-            .map(|lines| lines.cut(STRAND_PARTICLES_MAX as usize, cells_max));
-        let lines: Vec<&Line> =
-            sides.iter().chain(&diagonals).filter(|line| line.particles.len() >= STRAND_PARTICLES_MIN).collect();
-        let colours = line_colours(&lines, cloth.particle_count);
-        let aim = aim(self.rule);
+        let [sides, diagonals] = [cloth.side_lines(), cloth.diagonal_lines()].map(|lines| lines.cut(cells_max));
+        let lines = || sides.iter().chain(&diagonals).filter(|line| line.particles.len() >= STRAND_PARTICLES_MIN);
+        let coarse = lines().flat_map(|line| coarse_parts(line, cells_max));
+        let parts: Vec<Part<'_>> = coarse.chain(lines().flat_map(|line| fine_parts(line, cells_max))).collect();
+        let colours = part_colours(&parts, cloth.particle_count);
         for colour in 0..colours.iter().max().map_or(0, |last| last + 1) {
             let first = self.strands.len() as u32;
-            for (line, _) in lines.iter().zip(&colours).filter(|(_, c)| **c == colour) {
-                let start = self.strand_particles.len() as u32;
-                self.strand_particles.extend(&line.particles);
-                let mut strand = Strand {
-                    particles: start..self.strand_particles.len() as u32,
-                    lengths: self.strand_lengths.len() as u32,
-                    level_count: 0,
-                };
-                let mut cells = 2;
-                while cells <= cells_max.min(line.particles.len() - 1) {
-                    let chord = path_chord(cells);
-                    let spans = cloth.spans(line, chord, &rims);
-                    let lengths: Vec<f32> =
-                        spans.iter().map(|span| stretched(span.length as f32, aim * span.threshold as f32)).collect();
-                    let path = |first: usize| lengths[first..=first + cells - chord].iter().step_by(chord).sum::<f32>();
-                    self.strand_lengths.extend((0..line.particles.len() - cells).map(path));
-                    strand.level_count += 1;
-                    cells *= 2;
-                }
-                self.strands.push(strand);
+            for (part, _) in parts.iter().zip(&colours).filter(|(_, c)| **c == colour) {
+                self.add_strand(part, cloth, &rims);
             }
             self.strand_colours.push(first..self.strands.len() as u32);
         }
+    }
+
+    fn add_strand(&mut self, part: &Part<'_>, cloth: &Cloth<'_>, rims: &Csr<[u32; 2]>) {
+        let start = self.strand_particles.len() as u32;
+        self.strand_particles.extend(part.particles());
+        let mut strand = Strand {
+            particles: start..self.strand_particles.len() as u32,
+            stride: part.stride as u32,
+            lengths: self.strand_lengths.len() as u32,
+            level_count: 0,
+        };
+        let aim = aim(self.rule);
+        let mut reach = 2;
+        while reach < part.particles().len() && reach * part.stride <= part.cells_max {
+            let [cells, chord] = [reach, path_chord(reach)].map(|steps| steps * part.stride);
+            let spans = cloth.spans(part.line, chord, rims);
+            let lengths: Vec<f32> =
+                spans.iter().map(|span| stretched(span.length as f32, aim * span.threshold as f32)).collect();
+            let path = |first: usize| lengths[first..=first + cells - chord].iter().step_by(chord).sum::<f32>();
+            self.strand_lengths.extend(part.places().take(part.particles().len() - reach).map(path));
+            strand.level_count += 1;
+            reach *= 2;
+        }
+        self.strands.push(strand);
     }
 
     /// The limits of single springs that lie on no strand.
@@ -61,6 +67,7 @@ impl Model {
         let mut on_strands: Vec<[u32; 2]> = self
             .strands
             .iter()
+            .filter(|strand| strand.stride == 1)
             .flat_map(|strand| {
                 self.strand_particles[strand.particles.start as usize..strand.particles.end as usize].windows(2)
             })
@@ -70,7 +77,7 @@ impl Model {
         self.limits.iter().filter(move |limit| on_strands.binary_search(&limit.ends).is_err())
     }
 
-    /// Every limit along every strand, strand by strand, from those over two edges to the longest: its two particles and its maximum length [m].
+    /// Every limit along every strand, strand by strand, from those over two steps to the longest: its two particles and its maximum length [m].
     pub fn strand_limits(&self) -> impl Iterator<Item = ([u32; 2], f32)> {
         self.strands.iter().flat_map(move |strand| {
             let particles = &self.strand_particles[strand.particles.start as usize..strand.particles.end as usize];
@@ -88,7 +95,7 @@ impl Model {
 }
 
 impl Strand {
-    /// Index in [`Model::strand_lengths`] of the first limit of a level: level k has one for every two particles that are 2^k edges
+    /// Index in [`Model::strand_lengths`] of the first limit of a level: level k has one for every two particles that are 2^k steps
     /// apart, after those of the levels below.
     pub fn lengths_from(&self, level: u32) -> u32 {
         let count = self.particles.end - self.particles.start;
@@ -96,22 +103,78 @@ impl Strand {
     }
 }
 
-/// Edges that one chord of a limit over so many edges of a strand spans: over four edges and more it goes along a path of four chords,
+/// Steps that one chord of a limit over so many steps of a strand spans: over four steps and more it goes along a path of four chords,
 /// over two along one.
-pub fn path_chord(edges: usize) -> usize {
-    if edges < PATH_CHORDS { edges } else { edges / PATH_CHORDS }
+pub fn path_chord(steps: usize) -> usize {
+    if steps < PATH_CHORDS { steps } else { steps / PATH_CHORDS }
 }
 
-/// A colour for each line: no two of a colour share a particle. Sides come first, and so warp and weft of a grid, then its diagonals.
-fn line_colours(lines: &[&Line], particle_count: usize) -> Vec<u32> {
+/// Particles of a line that become one strand: as many edges apart each, with limits over at most so many edges of the line.
+struct Part<'a> {
+    line: &'a Line,
+    first: usize,
+    end: usize,
+    stride: usize,
+    cells_max: usize,
+}
+
+impl Part<'_> {
+    /// Where its particles stand in the line.
+    fn places(&self) -> impl ExactSizeIterator<Item = usize> {
+        (self.first..self.end).step_by(self.stride)
+    }
+
+    fn particles(&self) -> impl ExactSizeIterator<Item = u32> {
+        self.places().map(|place| self.line.particles[place])
+    }
+}
+
+/// Edges from one particle to the next of the strands that hold the longest limits of a line: 1 where one strand takes all of it.
+fn stride_of(line: &Line, cells_max: usize) -> usize {
+    let fewest = line.particles.len().div_ceil(STRAND_PARTICLES_MAX as usize);
+    fewest.next_power_of_two().min(1 << (cells_max / 2).ilog2())
+}
+
+/// The strands with the longest limits of a line. Those of a line that is too long for one lie between one another, each on every second particle,
+/// or fourth, or eighth, and so on: no limit ends where a strand is full, or the cloth would be stretched there.
+fn coarse_parts(line: &Line, cells_max: usize) -> impl Iterator<Item = Part<'_>> {
+    let stride = stride_of(line, cells_max);
+    let count = line.particles.len();
+    let pieces = pieces(count, STRAND_PARTICLES_MAX as usize * stride);
+    pieces.flat_map(move |piece| {
+        (piece.start..piece.start + stride).map(move |first| Part { line, first, end: piece.end, stride, cells_max })
+    })
+}
+
+/// The strands with the limits that are too short for those of [`coarse_parts`].
+fn fine_parts(line: &Line, cells_max: usize) -> impl Iterator<Item = Part<'_>> {
+    let stride = stride_of(line, cells_max);
+    let count = if stride > 1 { line.particles.len() } else { 0 };
+    pieces(count, STRAND_PARTICLES_MAX as usize).map(move |piece| Part {
+        line,
+        first: piece.start,
+        end: piece.end,
+        stride: 1,
+        cells_max: stride,
+    })
+}
+
+/// As few pieces as there can be of at most so many particles, all as long.
+fn pieces(count: usize, count_max: usize) -> impl Iterator<Item = Range<usize>> {
+    let length = count.div_ceil(count.div_ceil(count_max).max(1)).max(1);
+    (0..count).step_by(length).map(move |start| start..count.min(start + length))
+}
+
+/// A colour for each part: no two of a colour share a particle. Sides come first, and so warp and weft of a grid, then its diagonals.
+fn part_colours(parts: &[Part<'_>], particle_count: usize) -> Vec<u32> {
     let mut used: Vec<Vec<u32>> = vec![Vec::new(); particle_count];
-    let colour = |line: &&Line| {
-        let is_free = |colour: &u32| line.particles.iter().all(|p| !used[*p as usize].contains(colour));
+    let colour = |part: &Part<'_>| {
+        let is_free = |colour: &u32| part.particles().all(|p| !used[p as usize].contains(colour));
         let colour = (0..).find(is_free).expect("there is no end of colours");
-        line.particles.iter().for_each(|p| used[*p as usize].push(colour));
+        part.particles().for_each(|p| used[p as usize].push(colour));
         colour
     };
-    lines.iter().map(colour).collect()
+    parts.iter().map(colour).collect()
 }
 
 impl Model {

@@ -119,14 +119,16 @@ pub struct Limit {
     pub max_length: f32,
 }
 
-/// A line of cloth that goes straight on from particle to particle, with limits over 2, 4, 8… of its edges: its levels, from 1 on.
+/// A line of cloth that goes straight on, with limits over 2, 4, 8… steps from particle to particle: its levels, from 1 on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Strand {
     /// Where its particles stand in [`Model::strand_particles`]: at most 512, none twice.
     pub particles: Range<u32>,
+    /// Edges of the cloth in a step: 1, or where a line is too long for one strand 2, 4, 8… in the strands of its longest limits.
+    pub stride: u32,
     /// Where its lengths begin in [`Model::strand_lengths`]; see [`Strand::lengths_from`].
     pub lengths: u32,
-    /// The highest level, that of the limits over 2^level_count edges; at least 1.
+    /// The highest level, that of the limits over 2^level_count steps; at least 1.
     pub level_count: u32,
 }
 

@@ -2,7 +2,7 @@
 
 use crate::support::{garment, polygon, rectangle, settings};
 use glam::{DVec2, DVec3, dvec2};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
 use toile_model::{Limit, Model, STRAND_PARTICLES_MAX, Strand};
 use toile_scene::{Garment, Pin, Rule, Settings, Sheet, Threshold, VelocityModification};
@@ -39,7 +39,7 @@ fn sheet_of(columns: u32, rows: u32, pins: Vec<Pin>, settings: &Settings) -> Mod
     Model::from_sheet(&sheet, settings)
 }
 
-/// No two strands of a colour share a particle, no strand has one twice, and what they hold are springs.
+/// No two strands of a colour share a particle, no strand has one twice, and where they go from edge to edge these are springs.
 fn check_strands(model: &Model) {
     let mut end = 0;
     for colour in &model.strand_colours {
@@ -60,7 +60,8 @@ fn check_strands(model: &Model) {
         line.windows(2).map(|p| [p[0].min(p[1]), p[0].max(p[1])]).collect::<Vec<_>>()
     };
     let loose: Vec<[u32; 2]> = model.loose_limits().map(|l| l.ends).collect();
-    let mut held: Vec<[u32; 2]> = model.strands.iter().flat_map(single).chain(loose.iter().copied()).collect();
+    let by_edges = model.strands.iter().filter(|strand| strand.stride == 1);
+    let mut held: Vec<[u32; 2]> = by_edges.flat_map(single).chain(loose.iter().copied()).collect();
     held.sort_unstable();
     let is_loose = |ends: &[u32; 2]| loose.contains(ends);
     assert!(held.chunk_by(|a, b| a == b).all(|same| same.len() == 1 || !is_loose(&same[0])), "loose, and on a strand");
@@ -95,12 +96,42 @@ fn on_a_grid_every_line_of_2_4_and_8_cells_has_its_length() {
     assert_eq!(model.loose_limits().count(), 84, "diagonals of the corners");
 }
 
+/// The first particle of each limit along the first row of a sheet, by the cells that it spans.
+fn along_the_first_row(model: &Model, columns: u32) -> BTreeMap<u32, BTreeSet<u32>> {
+    let mut firsts: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
+    for (ends, max_length) in model.strand_limits().filter(|(ends, _)| ends[1] < columns) {
+        let cells = ends[1] - ends[0];
+        assert!((rest_length(max_length) - 0.01 * f64::from(cells)).abs() < 1e-6, "{ends:?}: {max_length} m");
+        assert!(firsts.entry(cells).or_default().insert(ends[0]), "{ends:?} twice");
+    }
+    firsts
+}
+
 #[test]
-fn long_lines_are_cut_to_what_a_workgroup_holds() {
-    let model = sheet(1100, 3, Vec::new());
+fn strands_of_a_long_line_lie_between_one_another_so_that_no_long_limit_is_missing() {
+    for (columns, rows) in [(513, 3), (1100, 3), (600, 300)] {
+        let model = sheet(columns, rows, Vec::new());
+        check_strands(&model);
+        let stride = model.strands[0].stride;
+        assert_eq!(stride, if columns > 1024 { 4 } else { 2 });
+        let firsts = along_the_first_row(&model, columns);
+        let cells_max = if rows == 300 { 32 } else { 8 };
+        let cells: Vec<u32> = firsts.keys().copied().collect();
+        assert_eq!(cells, (1..).map(|level| 1 << level).take_while(|c| *c <= cells_max).collect::<Vec<u32>>());
+        for (cells, firsts) in firsts {
+            // Shorter ones are missing where one of the strands that hold them ends and the next begins.
+            let missing = if cells > stride { 0 } else { (columns.div_ceil(512) - 1) * cells };
+            assert_eq!(firsts.len() as u32, columns - cells - missing, "of {cells} cells in {columns} columns");
+        }
+    }
+}
+
+#[test]
+fn a_ribbon_too_long_for_its_limits_has_strands_all_the_same() {
+    let model = sheet(5000, 2, Vec::new());
     check_strands(&model);
-    let longest = model.strands.iter().map(|s| s.particles.len()).max();
-    assert_eq!(longest, Some(STRAND_PARTICLES_MAX as usize));
+    let longest: usize = along_the_first_row(&model, 5000)[&8].len();
+    assert!(longest > 4900 && model.strands.iter().all(|strand| strand.level_count > 0), "{longest} of 8 cells");
 }
 
 #[test]
@@ -194,27 +225,24 @@ fn they_reach_across_seams_and_let_a_tube_be_round() {
     assert!(across > 100, "{across} limits lead from the front to the back");
 }
 
-/// A ring, or a line that is longer than a strand, is cut somewhere; a strand across the cut holds the cloth there.
+/// A ring is cut somewhere; a strand across the cut holds the cloth there.
 #[test]
-fn every_particle_of_a_line_is_amid_long_limits() {
+fn every_particle_of_a_ring_is_amid_long_limits() {
     let (tube, _) = Model::from_garment(&tube(), &hierarchical(0.02)).unwrap().sewn();
+    check_strands(&tube);
     let hem: Vec<u32> = (0..tube.particle_count()).filter(|&i| tube.flat[i as usize].y == 0.0).collect();
     assert_eq!(hem.len(), 30);
-    let long = sheet(1100, 3, Vec::new());
-    for (model, line, inner) in [(&tube, hem.clone(), hem), (&long, (0..1100).collect(), (4..1096).collect())] {
-        check_strands(model);
-        let amid: BTreeSet<u32> = model
-            .strands
-            .iter()
-            .flat_map(|strand| {
-                let particles = &model.strand_particles[strand.particles.start as usize..strand.particles.end as usize];
-                particles.windows(9)
-            })
-            .filter(|window| window.iter().all(|particle| line.contains(particle)))
-            .map(|window| window[4])
-            .collect();
-        assert_eq!(amid, inner.into_iter().collect());
-    }
+    let amid: BTreeSet<u32> = tube
+        .strands
+        .iter()
+        .flat_map(|strand| {
+            let particles = &tube.strand_particles[strand.particles.start as usize..strand.particles.end as usize];
+            particles.windows(9)
+        })
+        .filter(|window| window.iter().all(|particle| hem.contains(particle)))
+        .map(|window| window[4])
+        .collect();
+    assert_eq!(amid, hem.into_iter().collect());
 }
 
 #[test]

@@ -291,7 +291,8 @@ fn strands(
         taken += if inside { wanted } else { 0 };
         let start = line.len() as u32;
         line.extend(&order[first as usize..(first + wanted) as usize]);
-        let mut strand = Strand { particles: start..start + wanted, lengths: lengths.len() as u32, level_count: 0 };
+        let mut strand =
+            Strand { particles: start..start + wanted, stride: 1, lengths: lengths.len() as u32, level_count: 0 };
         while 2 << strand.level_count < wanted {
             let ends = line[start as usize..].iter().zip(&line[start as usize + (2 << strand.level_count)..]);
             lengths.extend(ends.map(|(a, b): (&u32, &u32)| {
