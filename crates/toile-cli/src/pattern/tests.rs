@@ -18,15 +18,20 @@ fn skirt() -> Pattern {
 }
 
 fn curtain() -> Pattern {
+    hung(13)
+}
+
+/// A sheet of so many columns that hangs on its upper corners.
+fn hung(columns: u32) -> Pattern {
     let sheet = Sheet {
         name: "a < b & c".to_owned(),
-        columns: 13,
+        columns,
         rows: 9,
-        size: DVec2::new(0.6, 0.4),
+        size: DVec2::new(0.05 * f64::from(columns - 1), 0.4),
         corner: DVec3::ZERO,
         right: DVec3::X,
         down: DVec3::NEG_Y,
-        pins: vec![Pin { column: 0, row: 0 }, Pin { column: 12, row: 0 }],
+        pins: [0, columns - 1].map(|column| Pin { column, row: 0 }).to_vec(),
     };
     let open = Model::from_sheet(&sheet, &settings());
     let merge = Merge::identity(open.particle_count());
@@ -105,6 +110,19 @@ fn a_sheet_shows_what_its_pins_hold() {
     assert_eq!(lines(&svg, "loose").len(), pattern.open.loose_limits().count());
     assert!(svg.contains("a &lt; b &amp; c"), "a name is no tag");
     assert_eq!(step_count(&lines(&svg, "edge")), 2 * (12 + 8));
+    check(pattern);
+}
+
+#[test]
+fn a_line_of_several_strands_is_drawn_once_from_edge_to_edge() {
+    let pattern = hung(600);
+    assert!(pattern.open.strands.iter().any(|strand| strand.stride > 1), "the test sees something");
+    let svg = draw(&[hung(600)]);
+    // Two strands along each row, a gap of an edge between them; one along each column, and the diagonals of eight and seven cells.
+    assert_eq!(step_count(&lines(&svg, "strand weft")), 9 * (600 - 2));
+    assert_eq!(step_count(&lines(&svg, "strand warp")), 600 * 8);
+    assert_eq!(step_count(&lines(&svg, "strand diagonal")), 2 * ((600 - 8) * 8 + 2 * 7));
+    assert_eq!(lines(&svg, "loose").len(), pattern.open.loose_limits().count());
     check(pattern);
 }
 
