@@ -268,13 +268,10 @@ impl Chain {
 }
 
 impl Cloth<'_> {
-    /// What lies inside the flat panels between particles of a line that are so many edges apart: the straight line where it stays inside,
+    /// What lies inside the flat panels between a place of a line and the particle so many edges on: the straight line where it stays inside,
     /// else the way along the line.
-    pub(crate) fn spans(&self, line: &Line, cells: usize, rims: &Csr<[u32; 2]>) -> Vec<Span> {
-        line.steps.windows(cells).map(|steps| self.span(steps, rims)).collect()
-    }
-
-    fn span(&self, steps: &[Edge], rims: &Csr<[u32; 2]>) -> Span {
+    pub(crate) fn span_from(&self, line: &Line, place: usize, edges: usize, rims: &Csr<[u32; 2]>) -> Span {
+        let steps = &line.steps[place..place + edges];
         let length: f64 = steps.iter().map(|edge| edge.span.length).sum();
         let longer: f64 = steps.iter().map(|edge| edge.span.length * edge.span.threshold).sum();
         let way = Span { length, threshold: longer / length };

@@ -48,14 +48,17 @@ impl Model {
             level_count: 0,
         };
         let aim = aim(self.rule);
+        let count = part.particles().len();
         let mut reach = 2;
-        while reach < part.particles().len() && reach * part.stride <= part.cells_max {
-            let [cells, chord] = [reach, path_chord(reach)].map(|steps| steps * part.stride);
-            let spans = cloth.spans(part.line, chord, rims);
-            let lengths: Vec<f32> =
-                spans.iter().map(|span| stretched(span.length as f32, aim * span.threshold as f32)).collect();
-            let path = |first: usize| lengths[first..=first + cells - chord].iter().step_by(chord).sum::<f32>();
-            self.strand_lengths.extend(part.places().take(part.particles().len() - reach).map(path));
+        while reach < count && reach * part.stride <= part.cells_max {
+            let chord = path_chord(reach);
+            let chord_length = |place| {
+                let span = cloth.span_from(part.line, place, chord * part.stride, rims);
+                stretched(span.length as f32, aim * span.threshold as f32)
+            };
+            let lengths: Vec<f32> = part.places().take(count - chord).map(chord_length).collect();
+            let path = |first: usize| lengths[first..=first + reach - chord].iter().step_by(chord).sum::<f32>();
+            self.strand_lengths.extend((0..count - reach).map(path));
             strand.level_count += 1;
             reach *= 2;
         }
