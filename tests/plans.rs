@@ -119,6 +119,27 @@ fn a_polish_repeats_the_sweep_behind_grants_and_a_plan_without_has_neither() {
     }
 }
 
+#[test]
+fn a_sweep_goes_over_its_limits_turn_by_turn_before_the_bodies_answer() {
+    for name in SCENES {
+        let scene = scene(name, &[]);
+        let model = sheet_model(&scene);
+        let once = StepSettings::new(&scene.settings, &model);
+        let [once, twice] = [1, 2].map(|limit_turns| {
+            let settings = StepSettings { limit_turns, ..once.clone() };
+            let step = plan(&model, &settings, &scene.bodies).step;
+            let is_run = |a: &Pass, b: &Pass| a.kernel == b.kernel || is_limit(a) && is_limit(b);
+            step.chunk_by(is_run).map(<[Pass]>::to_vec).collect::<Vec<_>>()
+        });
+        let turned = |run: &Vec<Pass>| -> Vec<Pass> {
+            let times = if is_limit(&run[0]) || run[0].kernel == Kernel::LimitGuard { 2 } else { 1 };
+            run.iter().cycle().take(times * run.len()).cloned().collect()
+        };
+        let expected: Vec<_> = once.iter().map(turned).collect();
+        assert!(twice == expected && once.len() > 2, "{name}");
+    }
+}
+
 fn is_limit(pass: &Pass) -> bool {
     matches!(pass.kernel, Kernel::LimitAttachments | Kernel::LimitStrands | Kernel::LimitPredictive)
 }

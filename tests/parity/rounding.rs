@@ -56,11 +56,11 @@ fn worn_strands() -> Input {
         .map(|k| {
             let start = k.saturating_sub(first) * COUNT;
             let lengths = input.strand_lengths.len() as u32;
-            for level in 1..4 {
+            for level in 0..4 {
                 let reach = 1 << level;
                 input.strand_lengths.extend((reach..COUNT).map(|_| 0.03 * reach as f32));
             }
-            Strand { particles: start..start + COUNT, stride: 1, lengths, level_count: 3 }
+            Strand { particles: start..start + COUNT, stride: 1, lengths, level_count: 4 }
         })
         .collect();
     for i in 0..count as usize {

@@ -44,6 +44,18 @@ fn a_sheet_on_a_sphere_agrees_under_every_rule_and_both_friction_laws() {
 }
 
 #[test]
+fn a_sheet_whose_sweeps_have_two_turns_agrees() {
+    for name in ["hang", "ball"] {
+        let mut turned = scene(name, &[("n", "17"), ("sheet.0.corner", "[-0.5, 0.256, 0.5]")]);
+        turned.settings.velocity_modification.polish = Some(Polish { target: 0.01, sweeps: 1 });
+        let model = sheet_model(&turned);
+        let settings = StepSettings { limit_turns: 2, ..StepSettings::new(&turned.settings, &model) };
+        let status = Life::new(&model, &settings, None, sphere(&turned)).agree(&format!("{name}, two turns"), 10);
+        assert!(status.further_sweeps > 0, "{name}: {status:?}");
+    }
+}
+
+#[test]
 fn a_polished_sheet_agrees_where_it_holds_and_where_it_misses() {
     let lower = ("sheet.0.corner", "[-0.5, 0.256, 0.5]");
     for (name, rule, target) in

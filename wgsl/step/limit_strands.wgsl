@@ -1,4 +1,4 @@
-// Rule Hierarchical: the predictive rule along each strand of a colour, from limits over many edges to those over two. One workgroup for
+// Rule Hierarchical: the predictive rule along each strand of a colour, from limits over many steps to those over one. One workgroup for
 // each strand; it works on copies in its own memory. One colour per dispatch.
 #import shared/step_params
 #import shared/span
@@ -112,9 +112,10 @@ fn limit_strands(
         shifts[k] = vec3<f32>(0.0);
     }
     workgroupBarrier();
-    for (var level = strand.level_count; level > 1u; level--) {
+    for (var levels = strand.level_count; levels > 2u; levels--) {
+        let level = levels - 1u;
         let reach = 1u << level;
-        let lengths = strand.lengths + (level - 1u) * strand.count - (reach - 2u);
+        let lengths = strand.lengths + level * strand.count - (reach - 1u);
         let shorter = level - 2u;
         let quarter = 1u << shorter;
         // Every fifth quarter, so that no two paths share a particle.
@@ -129,16 +130,21 @@ fn limit_strands(
             workgroupBarrier();
         }
     }
-    // Every other pair of edges, so that no two share a particle.
-    for (var turn = 0u; turn < 2u; turn++) {
-        for (var k = lane; k < strand.count; k += LANES) {
-            let a = 2u * (2u * (k >> 1u) + turn) + (k & 1u);
-            if a + 2u >= strand.count {
-                break;
+    for (var levels = min(strand.level_count, 2u); levels > 0u; levels--) {
+        let level = levels - 1u;
+        let reach = 1u << level;
+        let lengths = strand.lengths + level * strand.count - (reach - 1u);
+        // Every other one, or pair, so that no two share a particle.
+        for (var turn = 0u; turn < 2u; turn++) {
+            for (var k = lane; k < strand.count; k += LANES) {
+                let a = (2u * (k >> level) + turn) * reach + (k & (reach - 1u));
+                if a + reach >= strand.count {
+                    break;
+                }
+                hold_chord(a, a + reach, strand_lengths[lengths + a]);
             }
-            hold_chord(a, a + 2u, strand_lengths[strand.lengths + a]);
+            workgroupBarrier();
         }
-        workgroupBarrier();
     }
     for (var k = lane; k < strand.count; k += LANES) {
         let i = strand_particles[strand.first + k];

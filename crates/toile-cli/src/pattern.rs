@@ -196,12 +196,13 @@ impl Drawing<'_> {
 
 /// One of the longest limits of a strand, along the strand where it counts the way, in straight chords where it counts distances.
 fn long_limit(cloth: &Model, strand: &Strand, steps: &[[u32; 2]], index: u32) -> Vec<[u32; 2]> {
-    let reach = 1_usize << strand.level_count;
+    let top = strand.level_count - 1;
+    let reach = 1_usize << top;
     let first = ((f64::from(index) * SPREAD).fract() * (steps.len() + 1 - reach) as f64) as usize;
     let length = |level: u32, k: usize| cloth.strand_lengths[strand.lengths_from(level) as usize + k];
-    let way: f32 = (first..first + reach).step_by(2).map(|k| length(1, k)).sum();
+    let way: f32 = (first..first + reach).map(|k| length(0, k)).sum();
     let along = &steps[first..first + reach];
-    if length(strand.level_count, first) < way * (1.0 - 1e-5) {
+    if length(top, first) < way * (1.0 - 1e-5) {
         along.chunks(path_chord(reach)).map(|chord| [chord[0][0], chord[chord.len() - 1][1]]).collect()
     } else {
         along.to_vec()

@@ -70,19 +70,25 @@ impl Plan {
         let rows: Vec<&Row> = TABLE.iter().filter(|row| holds(row.need, needs)).collect();
         let mut step = Vec::new();
         let mut sweep: Vec<Pass> = Vec::new();
-        for group in rows.chunk_by(|a, b| a.stage == b.stage) {
-            let passes: Vec<Pass> = group.iter().flat_map(|row| passes(row, model, settings)).collect();
+        // A sweep begins with its turns.
+        for group in rows.chunk_by(|a, b| a.stage == b.stage || (a.stage, b.stage) == (Stage::Turn, Stage::Sweep)) {
+            let of = |stage: Stage| -> Vec<Pass> {
+                group.iter().filter(|row| row.stage == stage).flat_map(|row| passes(row, model, settings)).collect()
+            };
             match group[0].stage {
-                Stage::Step => step.extend(passes),
-                Stage::Sweep => {
-                    (0..settings.sweeps.max(1)).for_each(|_| step.extend(passes.iter().cloned()));
-                    sweep = passes;
+                Stage::Step => step.extend(of(Stage::Step)),
+                Stage::Turn | Stage::Sweep => {
+                    sweep = repeated(&of(Stage::Turn), settings.limit_turns).chain(of(Stage::Sweep)).collect();
+                    step.extend(repeated(&sweep, settings.sweeps.max(1)));
                 }
                 Stage::AfterSweeps => {
-                    step.extend(passes.iter().cloned());
-                    sweep.extend(passes);
+                    let after = of(Stage::AfterSweeps);
+                    step.extend(after.iter().cloned());
+                    sweep.extend(after);
                 }
-                Stage::Polish => step.extend(polish(&passes, &sweep, settings.polish.map_or(0, |p| p.sweeps))),
+                Stage::Polish => {
+                    step.extend(polish(&of(Stage::Polish), &sweep, settings.polish.map_or(0, |polish| polish.sweeps)));
+                }
                 Stage::Pose | Stage::Frame | Stage::Handover | Stage::Measure => {}
             }
         }
@@ -117,8 +123,12 @@ fn polish(rows: &[Pass], sweep: &[Pass], sweeps: u32) -> Vec<Pass> {
     let mut further: Vec<Pass> = granted.map(|(pass, place)| Pass { grant: Some(place), ..pass.clone() }).collect();
     further.push(decision.clone());
     let mut passes = rows.to_vec();
-    (0..sweeps).for_each(|_| passes.extend(further.iter().cloned()));
+    passes.extend(repeated(&further, sweeps));
     passes
+}
+
+fn repeated(passes: &[Pass], times: u32) -> impl Iterator<Item = Pass> {
+    (0..times).flat_map(|_| passes.iter().cloned())
 }
 
 impl Pass {
@@ -176,12 +186,12 @@ fn passes(row: &Row, model: &Model, settings: &StepSettings) -> Vec<Pass> {
         Domain::Hold => all(model.holds.len() as u32),
         Domain::Limit => all(model.limits.len() as u32),
         Domain::LimitColour => {
-            let turns = match row.stage {
-                Stage::Sweep => settings.limit_passes(),
+            let times = match row.stage {
+                Stage::Turn | Stage::Sweep => settings.limit_passes(),
                 Stage::AfterSweeps => settings.guard_passes(),
                 _ => 1,
             };
-            (0..turns).flat_map(|_| coloured(&model.limit_colours)).collect()
+            (0..times).flat_map(|_| coloured(&model.limit_colours)).collect()
         }
         Domain::StrandColour => coloured(&model.strand_colours),
         Domain::SeamPair => all(model.seam_pair_count()),

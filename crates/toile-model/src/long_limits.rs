@@ -25,7 +25,7 @@ impl Model {
         let cells_max = CELLS_MIN.max(((cloth.particle_count as f64).sqrt() * CELLS_PART).round() as usize);
         let rims = cloth.rims();
         let [sides, diagonals] = [cloth.side_lines(), cloth.diagonal_lines()].map(|lines| lines.cut(cells_max));
-        let lines = || sides.iter().chain(&diagonals).filter(|line| line.particles.len() >= STRAND_PARTICLES_MIN);
+        let lines = || diagonals.iter().chain(&sides).filter(|line| line.particles.len() >= STRAND_PARTICLES_MIN);
         let coarse = lines().flat_map(|line| coarse_parts(line, cells_max));
         let parts: Vec<Part<'_>> = coarse.chain(lines().flat_map(|line| fine_parts(line, cells_max))).collect();
         let colours = part_colours(&parts, cloth.particle_count);
@@ -49,7 +49,7 @@ impl Model {
         };
         let aim = aim(self.rule);
         let count = part.particles().len();
-        let mut reach = 2;
+        let mut reach = 1;
         while reach < count && reach * part.stride <= part.cells_max {
             let chord = path_chord(reach);
             let chord_length = |place| {
@@ -80,11 +80,11 @@ impl Model {
         self.limits.iter().filter(move |limit| on_strands.binary_search(&limit.ends).is_err())
     }
 
-    /// Every limit along every strand, strand by strand, from those over two steps to the longest: its two particles and its maximum length [m].
+    /// Every limit along every strand, strand by strand, from those over one step to the longest: its two particles and its maximum length [m].
     pub fn strand_limits(&self) -> impl Iterator<Item = ([u32; 2], f32)> {
         self.strands.iter().flat_map(move |strand| {
             let particles = &self.strand_particles[strand.particles.start as usize..strand.particles.end as usize];
-            (1..=strand.level_count).flat_map(move |level| {
+            (0..strand.level_count).flat_map(move |level| {
                 let reach = 1 << level;
                 let lengths = &self.strand_lengths[strand.lengths_from(level) as usize..];
                 particles
@@ -102,12 +102,12 @@ impl Strand {
     /// apart, after those of the levels below.
     pub fn lengths_from(&self, level: u32) -> u32 {
         let count = self.particles.end - self.particles.start;
-        self.lengths + (level - 1) * count - ((1 << level) - 2)
+        self.lengths + level * count - ((1 << level) - 1)
     }
 }
 
 /// Steps that one chord of a limit over so many steps of a strand spans: over four steps and more it goes along a path of four chords,
-/// over two along one.
+/// over one and two along one.
 pub fn path_chord(steps: usize) -> usize {
     if steps < PATH_CHORDS { steps } else { steps / PATH_CHORDS }
 }
@@ -158,7 +158,7 @@ fn fine_parts(line: &Line, cells_max: usize) -> impl Iterator<Item = Part<'_>> {
         first: piece.start,
         end: piece.end,
         stride: 1,
-        cells_max: stride,
+        cells_max: stride / 2,
     })
 }
 
@@ -168,7 +168,8 @@ fn pieces(count: usize, count_max: usize) -> impl Iterator<Item = Range<usize>> 
     (0..count).step_by(length).map(move |start| start..count.min(start + length))
 }
 
-/// A colour for each part: no two of a colour share a particle. Sides come first, and so warp and weft of a grid, then its diagonals.
+/// A colour for each part: no two of a colour share a particle. In their order, so that the diagonals of a grid come before its warp and weft,
+/// as among single springs: what comes last is drawn out by nothing.
 fn part_colours(parts: &[Part<'_>], particle_count: usize) -> Vec<u32> {
     let mut used: Vec<Vec<u32>> = vec![Vec::new(); particle_count];
     let colour = |part: &Part<'_>| {

@@ -119,7 +119,7 @@ pub struct Limit {
     pub max_length: f32,
 }
 
-/// A line of cloth that goes straight on, with limits over 2, 4, 8… steps from particle to particle: its levels, from 1 on.
+/// A line of cloth that goes straight on, with limits over 1, 2, 4… steps from particle to particle: its levels, from 0 on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Strand {
     /// Where its particles stand in [`Model::strand_particles`]: at most 512, none twice.
@@ -128,7 +128,7 @@ pub struct Strand {
     pub stride: u32,
     /// Where its lengths begin in [`Model::strand_lengths`]; see [`Strand::lengths_from`].
     pub lengths: u32,
-    /// The highest level, that of the limits over 2^level_count steps; at least 1.
+    /// Levels; at least 1. Limits of the highest span 2^(level_count − 1) steps.
     pub level_count: u32,
 }
 

@@ -7,10 +7,13 @@ use toile_scene::{Friction, Polish, Rule, Settings, Wind};
 
 /// Passes over single springs after the strands. Strands of four directions disagree by what single springs are left with, most where cloth
 /// whips or slaps on a body and longer limits are slack.
-const LIMIT_PASSES: u32 = 3;
+const LIMIT_PASSES: u32 = 2;
 
-/// Passes over single springs after all sweeps. In one, springs of the first colours get back part of what they lost from those that come
-/// after them.
+/// Cells along the longest limits of a cloth from which on a sweep has two turns.
+const CELLS_FOR_TWO_TURNS: u32 = 64;
+
+/// Passes over single springs after all sweeps, for each turn that a sweep has. In one, springs of the first colours get back part of what
+/// they lost from those that come after them.
 const GUARD_PASSES: u32 = 2;
 
 /// Twenty times the weight of the cloth: of cotton about 30 Pa, as if it were drawn with 3 N/m around a waist [m/s²].
@@ -52,6 +55,9 @@ pub struct StepSettings {
     pub rule: Rule,
     /// Sweeps over all limits per step.
     pub sweeps: u32,
+    /// How often a sweep goes over the limits before bodies and seams answer: twice where the longest limits span 64 cells, in a cloth of
+    /// 512 × 512 particles, and more.
+    pub limit_turns: u32,
     /// Further sweeps in steps that need them.
     pub polish: Option<Polish>,
     /// Whether the whole way of a point is tested against the bodies, not its end alone.
@@ -82,6 +88,7 @@ impl StepSettings {
             hold_speed: 0.5,
             rule: settings.velocity_modification.rule,
             sweeps: settings.velocity_modification.sweeps,
+            limit_turns: limit_turns(model),
             polish: settings.velocity_modification.polish,
             swept: settings.swept,
         }
@@ -99,19 +106,19 @@ impl StepSettings {
         aim(self.rule)
     }
 
-    /// How often a sweep goes over the limits of single springs.
+    /// How often a turn goes over the limits of single springs.
     pub fn limit_passes(&self) -> u32 {
         if self.rule == Rule::Hierarchical { LIMIT_PASSES } else { 1 }
     }
 
     /// How often the guard goes over the limits of single springs at the end of a step.
     pub fn guard_passes(&self) -> u32 {
-        GUARD_PASSES
+        GUARD_PASSES * self.limit_turns
     }
 
     /// How much the guard shortens a spring at once [m]: the thickness in all its passes, for that is what it has to give way.
     pub fn guard_way(&self) -> f32 {
-        self.thickness / GUARD_PASSES as f32
+        self.thickness / self.guard_passes() as f32
     }
 
     /// The change of normal speed by one sweep that friction counts at most [m/s]: what [`Self::pressing`] gives in a step, in equal parts;
@@ -119,6 +126,11 @@ impl StepSettings {
     pub fn pressing_speed_per_sweep(&self) -> f32 {
         self.pressing * self.dt / self.sweeps.max(1) as f32
     }
+}
+
+fn limit_turns(model: &Model) -> u32 {
+    let cells_max = model.strands.iter().map(|strand| strand.stride << (strand.level_count - 1)).max();
+    if cells_max.is_some_and(|cells| cells >= CELLS_FOR_TWO_TURNS) { 2 } else { 1 }
 }
 
 /// Largest step [s] at which symplectic Euler is surely stable on this model's springs: 2/ω with Gershgorin's bound

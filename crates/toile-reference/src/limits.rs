@@ -15,8 +15,8 @@ pub fn warm_start(particles: &mut Particles, model: &Model, settings: &StepSetti
     }
 }
 
-/// One sweep over the velocities; under the hierarchical rule from pins outward, along strands, then single springs. `contacts` are those
-/// of the last step, shape [particle_count], where there is a body; `impulses` [N·s] go on through the step, shape [limit_count].
+/// The limits' part of a sweep, turn by turn; under the hierarchical rule from pins outward, along strands, then single springs. `contacts`
+/// are those of the last step, shape [particle_count], where there is a body; `impulses` [N·s] go on through the step, shape [limit_count].
 pub fn sweep(
     particles: &mut Particles,
     model: &Model,
@@ -27,6 +27,18 @@ pub fn sweep(
     if settings.sweeps == 0 {
         return;
     }
+    for _ in 0..settings.limit_turns {
+        turn(particles, model, settings, contacts, impulses);
+    }
+}
+
+fn turn(
+    particles: &mut Particles,
+    model: &Model,
+    settings: &StepSettings,
+    contacts: Option<&[Contact]>,
+    impulses: &mut [f32],
+) {
     if settings.rule == Rule::Hierarchical {
         step::limit_attachments(particles, &model.attachments, settings.dt);
         let (line, lengths) = (&model.strand_particles, &model.strand_lengths);

@@ -4,7 +4,7 @@ use crate::support::{garment, polygon, rectangle, settings};
 use glam::{DVec2, DVec3, dvec2};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
-use toile_model::{Limit, Model, STRAND_PARTICLES_MAX, Strand};
+use toile_model::{Limit, Model, STRAND_PARTICLES_MAX, StepSettings, Strand};
 use toile_scene::{Garment, Pin, Rule, Settings, Sheet, Threshold, VelocityModification};
 
 /// Part of the threshold that the limits hold.
@@ -69,10 +69,15 @@ fn check_strands(model: &Model) {
     let mut limits: Vec<[u32; 2]> = model.limits.iter().map(|l| l.ends).collect();
     limits.sort_unstable();
     assert_eq!(held, limits);
+    let single: BTreeMap<[u32; 2], f32> = model.limits.iter().map(|l| (l.ends, l.max_length)).collect();
+    for (ends, max_length) in model.strand_limits() {
+        let wanted = single.get(&ends).copied().unwrap_or(max_length);
+        assert!((max_length / wanted - 1.0).abs() < 1e-6, "{ends:?}: {max_length} m along a strand, {wanted} m alone");
+    }
 }
 
 #[test]
-fn on_a_grid_every_line_of_2_4_and_8_cells_has_its_length() {
+fn on_a_grid_every_line_of_1_2_4_and_8_cells_has_its_length() {
     let model = sheet(12, 10, Vec::new());
     check_strands(&model);
     let cells: Vec<i64> = model
@@ -88,7 +93,9 @@ fn on_a_grid_every_line_of_2_4_and_8_cells_has_its_length() {
         })
         .collect();
     // Of each direction of diagonals two lines have 8 particles, two have 9 and three have 10; shorter ones are no strands.
-    for (wanted, columns, rows, diagonals) in [(8, 4, 2, 2 + 3 * 2), (4, 8, 6, 8 + 10 + 18), (2, 10, 8, 12 + 14 + 24)] {
+    for (wanted, columns, rows, diagonals) in
+        [(8, 4, 2, 2 + 3 * 2), (4, 8, 6, 8 + 10 + 18), (2, 10, 8, 12 + 14 + 24), (1, 11, 9, 14 + 16 + 27)]
+    {
         let count = cells.iter().filter(|cells| **cells == wanted).count();
         assert_eq!(count, columns * 10 + rows * 12 + 2 * diagonals, "of {wanted} cells");
     }
@@ -112,15 +119,15 @@ fn strands_of_a_long_line_lie_between_one_another_so_that_no_long_limit_is_missi
     for (columns, rows) in [(513, 3), (1100, 3), (600, 300)] {
         let model = sheet(columns, rows, Vec::new());
         check_strands(&model);
-        let stride = model.strands[0].stride;
+        let stride = model.strands.iter().map(|strand| strand.stride).max().expect("it has strands");
         assert_eq!(stride, if columns > 1024 { 4 } else { 2 });
         let firsts = along_the_first_row(&model, columns);
         let cells_max = if rows == 300 { 32 } else { 8 };
         let cells: Vec<u32> = firsts.keys().copied().collect();
-        assert_eq!(cells, (1..).map(|level| 1 << level).take_while(|c| *c <= cells_max).collect::<Vec<u32>>());
+        assert_eq!(cells, (0..).map(|level| 1 << level).take_while(|c| *c <= cells_max).collect::<Vec<u32>>());
         for (cells, firsts) in firsts {
             // Shorter ones are missing where one of the strands that hold them ends and the next begins.
-            let missing = if cells > stride { 0 } else { (columns.div_ceil(512) - 1) * cells };
+            let missing = if cells >= stride { 0 } else { (columns.div_ceil(512) - 1) * cells };
             assert_eq!(firsts.len() as u32, columns - cells - missing, "of {cells} cells in {columns} columns");
         }
     }
@@ -132,6 +139,17 @@ fn a_ribbon_too_long_for_its_limits_has_strands_all_the_same() {
     check_strands(&model);
     let longest: usize = along_the_first_row(&model, 5000)[&8].len();
     assert!(longest > 4900 && model.strands.iter().all(|strand| strand.level_count > 0), "{longest} of 8 cells");
+}
+
+#[test]
+fn a_sweep_has_two_turns_where_the_longest_limits_span_64_cells() {
+    let settings = hierarchical(0.01);
+    for (stride, level_count, limit_turns) in [(1, 6, 1), (1, 7, 2), (2, 5, 1), (2, 6, 2), (2, 7, 2)] {
+        let strand = Strand { particles: 0..100, stride, lengths: 0, level_count };
+        let model = Model { strands: vec![strand], ..Model::default() };
+        assert_eq!(StepSettings::new(&settings, &model).limit_turns, limit_turns, "{level_count} levels of {stride}");
+    }
+    assert_eq!(StepSettings::new(&settings, &sheet(20, 20, Vec::new())).limit_turns, 1);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! The predictive rule along strands, from limits over many edges to those over two.
+//! The predictive rule along strands, from limits over many steps to those over one.
 
 use crate::Particles;
 use glam::Vec3;
@@ -21,7 +21,7 @@ pub fn limit_strands(
     for strand in strands {
         let line = &strand_particles[strand.particles.start as usize..strand.particles.end as usize];
         let mut points: Vec<Point> = line.iter().map(|i| Point::after_move(particles, *i as usize, dt)).collect();
-        for level in (1..=strand.level_count).rev() {
+        for level in (0..strand.level_count).rev() {
             let reach = 1_usize << level;
             let lengths = &strand_lengths[strand.lengths_from(level) as usize..];
             let chord = path_chord(reach);

@@ -20,8 +20,8 @@ fn around_a_body() -> (Particles, Strand, Vec<f32>) {
         ..Model::default()
     };
     let lengths =
-        (1..4).flat_map(|level| vec![if level < 3 { 1.0 } else { 8.0 * EDGE }; COUNT - (1 << level)]).collect();
-    (Particles::new(&model), Strand { particles: 0..COUNT as u32, stride: 1, lengths: 0, level_count: 3 }, lengths)
+        (0..4).flat_map(|level| vec![if level < 3 { 1.0 } else { 8.0 * EDGE }; COUNT - (1 << level)]).collect();
+    (Particles::new(&model), Strand { particles: 0..COUNT as u32, stride: 1, lengths: 0, level_count: 4 }, lengths)
 }
 
 #[test]

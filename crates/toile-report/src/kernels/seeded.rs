@@ -286,15 +286,15 @@ fn strands(
     let count = counts.particles - 200;
     for k in 0..count / 8 + 2 * counts.others {
         let inside = (counts.others..counts.others + count / 8).contains(&k);
-        let wanted = if k == counts.others { 100 } else { 3 + random.below(5) };
+        let wanted = if k == counts.others { 100 } else { 2 + random.below(6) };
         let first = if inside { taken } else { 0 };
         taken += if inside { wanted } else { 0 };
         let start = line.len() as u32;
         line.extend(&order[first as usize..(first + wanted) as usize]);
         let mut strand =
             Strand { particles: start..start + wanted, stride: 1, lengths: lengths.len() as u32, level_count: 0 };
-        while 2 << strand.level_count < wanted {
-            let ends = line[start as usize..].iter().zip(&line[start as usize + (2 << strand.level_count)..]);
+        while 1 << strand.level_count < wanted {
+            let ends = line[start as usize..].iter().zip(&line[start as usize + (1 << strand.level_count)..]);
             lengths.extend(ends.map(|(a, b): (&u32, &u32)| {
                 let distance = particles.positions[*a as usize].distance(particles.positions[*b as usize]);
                 if distance > 0.0 { distance * random.between(0.9, 1.3) } else { 0.1 }
