@@ -4,6 +4,7 @@ use crate::support::{garment, polygon, rectangle, settings};
 use glam::{DVec2, DVec3, dvec2};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
+use std::ops::Range;
 use toile_model::{Limit, Model, STRAND_PARTICLES_MAX, StepSettings, Strand};
 use toile_scene::{Garment, Pin, Rule, Settings, Sheet, Threshold, VelocityModification};
 
@@ -100,6 +101,12 @@ fn on_a_grid_every_line_of_1_2_4_and_8_cells_has_its_length() {
         assert_eq!(count, columns * 10 + rows * 12 + 2 * diagonals, "of {wanted} cells");
     }
     assert_eq!(model.strand_colours.len(), 4, "warp, weft and the two diagonals");
+    let is_diagonal = |colour: &Range<u32>| {
+        let first = model.strands[colour.start as usize].particles.start as usize;
+        [11, 13].contains(&model.strand_particles[first].abs_diff(model.strand_particles[first + 1]))
+    };
+    let diagonals: Vec<bool> = model.strand_colours.iter().map(is_diagonal).collect();
+    assert_eq!(diagonals, [true, true, false, false], "warp and weft have the last word");
     assert_eq!(model.loose_limits().count(), 84, "diagonals of the corners");
 }
 
