@@ -65,17 +65,9 @@ impl Model {
         self.strands.push(strand);
     }
 
-    /// The limits of single springs that lie on no strand.
+    /// The limits of single springs that no strand holds.
     pub fn loose_limits(&self) -> impl Iterator<Item = &Limit> {
-        let mut on_strands: Vec<[u32; 2]> = self
-            .strands
-            .iter()
-            .filter(|strand| strand.stride == 1)
-            .flat_map(|strand| {
-                self.strand_particles[strand.particles.start as usize..strand.particles.end as usize].windows(2)
-            })
-            .map(|p| [p[0].min(p[1]), p[0].max(p[1])])
-            .collect();
+        let mut on_strands: Vec<[u32; 2]> = self.strand_limits().map(|(ends, _)| ends).collect();
         on_strands.sort_unstable();
         self.limits.iter().filter(move |limit| on_strands.binary_search(&limit.ends).is_err())
     }

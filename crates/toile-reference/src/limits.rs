@@ -28,33 +28,23 @@ pub fn sweep(
         return;
     }
     for _ in 0..settings.limit_turns {
-        turn(particles, model, settings, contacts, impulses);
-    }
-}
-
-fn turn(
-    particles: &mut Particles,
-    model: &Model,
-    settings: &StepSettings,
-    contacts: Option<&[Contact]>,
-    impulses: &mut [f32],
-) {
-    if settings.rule == Rule::Hierarchical {
-        step::limit_attachments(particles, &model.attachments, settings.dt);
-        let (line, lengths) = (&model.strand_particles, &model.strand_lengths);
-        for colour in &model.strand_colours {
-            step::limit_strands(particles, part(&model.strands, colour), line, lengths, settings.dt);
+        if settings.rule == Rule::Hierarchical {
+            step::limit_attachments(particles, &model.attachments, settings.dt);
+            let (line, lengths) = (&model.strand_particles, &model.strand_lengths);
+            for colour in &model.strand_colours {
+                step::limit_strands(particles, part(&model.strands, colour), line, lengths, settings.dt);
+            }
         }
-    }
-    for colour in (0..settings.limit_passes()).flat_map(|_| &model.limit_colours) {
-        let limits = part(&model.limits, colour);
-        match settings.rule {
-            Rule::None | Rule::Position => {}
-            Rule::Zero => step::limit_zero(particles, limits),
-            Rule::Average => step::limit_average(particles, limits),
-            Rule::Directional => step::limit_directional(particles, limits, contacts, settings),
-            Rule::Predictive | Rule::Hierarchical => {
-                step::limit_predictive(particles, limits, part_mut(impulses, colour), settings.dt);
+        for colour in (0..settings.limit_passes()).flat_map(|_| &model.limit_colours) {
+            let limits = part(&model.limits, colour);
+            match settings.rule {
+                Rule::None | Rule::Position => {}
+                Rule::Zero => step::limit_zero(particles, limits),
+                Rule::Average => step::limit_average(particles, limits),
+                Rule::Directional => step::limit_directional(particles, limits, contacts, settings),
+                Rule::Predictive | Rule::Hierarchical => {
+                    step::limit_predictive(particles, limits, part_mut(impulses, colour), settings.dt);
+                }
             }
         }
     }
