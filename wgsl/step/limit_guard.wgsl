@@ -23,7 +23,7 @@ fn limit_guard(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgr
     let predicted_length = length(predicted);
     let guard_length = 2.0 * limit.max_length - limit.rest_length;
     if predicted_length > guard_length {
-        let excess = min(predicted_length - guard_length, step.guard_way);
+        let excess = span.share * min(predicted_length - guard_length, step.guard_way);
         let pull = excess / (step.dt * inverse_mass_sum);
         pull_together(limit.first, limit.second, predicted * (pull / predicted_length));
     }

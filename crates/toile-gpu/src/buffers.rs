@@ -138,7 +138,7 @@ fn contents(name: &str, model: &Model, settings: &StepSettings, plan: &Plan) -> 
             limit_count: model.limits.len() as u32,
             ..step_params(settings)
         }),
-        "span" => Contents::Bytes(spans(model)),
+        "span" => Contents::Bytes(spans(plan)),
         "ball" | "lag" => Contents::Zeros(u64::from(settings.steps_per_frame) * MOVING_UNIFORM_STRIDE),
         "positions" => {
             Contents::Bytes(vec4s(model.positions.iter().zip(&model.inverse_masses).map(|(p, w)| p.extend(*w))))
@@ -219,12 +219,10 @@ fn contents(name: &str, model: &Model, settings: &StepSettings, plan: &Plan) -> 
     }
 }
 
-/// The spans of the colours of the limits, of the strands, then those of the seam pairs.
-fn spans(model: &Model) -> Vec<u8> {
+fn spans(plan: &Plan) -> Vec<u8> {
     let mut bytes = Vec::new();
-    for colour in model.limit_colours.iter().chain(&model.strand_colours).chain(&model.seam_colours) {
-        let span = structs::Span { first: colour.start, count: colour.end - colour.start };
-        bytes.extend(uniform_bytes(&span));
+    for span in &plan.spans {
+        bytes.extend(uniform_bytes(span));
         bytes.resize(bytes.len().next_multiple_of(MOVING_UNIFORM_STRIDE as usize), 0);
     }
     bytes

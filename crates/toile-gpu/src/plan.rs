@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::ops::Range;
+use toile_kernels::structs::Span;
 use toile_kernels::{Domain, Kernel, Need, Row, Stage, TABLE, WORKGROUP_SIZE};
 use toile_model::{Maps, Model, Needs, StepSettings};
 use toile_scene::Rule;
@@ -16,6 +17,8 @@ pub struct Plan {
     pub step: Vec<Pass>,
     /// Passes at the end of a frame.
     pub frame: Vec<Pass>,
+    /// The parts of arrays that passes by colour work on, each once.
+    pub spans: Vec<Span>,
 }
 
 /// One dispatch of a kernel.
@@ -25,8 +28,8 @@ pub struct Pass {
     pub kernel: Kernel,
     /// The items it works on: one colour of an array, or all of them.
     pub items: Range<u32>,
-    /// Which colour, for kernels that work by colour.
-    pub colour: Option<u32>,
+    /// For kernels that work by colour: its place in [`Plan::spans`].
+    pub span: Option<u32>,
     /// Whether a whole workgroup works on each item.
     pub workgroup_per_item: bool,
     /// For passes that a polish must grant, where the device finds how many workgroups they get: their place in `sweep_dispatches`.
@@ -68,12 +71,14 @@ impl Plan {
     /// The plan of a model.
     pub fn new(model: &Model, needs: &Needs, settings: &StepSettings) -> Self {
         let rows: Vec<&Row> = TABLE.iter().filter(|row| holds(row.need, needs)).collect();
+        let mut spans = Vec::new();
         let mut step = Vec::new();
         let mut sweep: Vec<Pass> = Vec::new();
         // A sweep begins with its turns.
         for group in rows.chunk_by(|a, b| a.stage == b.stage || (a.stage, b.stage) == (Stage::Turn, Stage::Sweep)) {
-            let of = |stage: Stage| -> Vec<Pass> {
-                group.iter().filter(|row| row.stage == stage).flat_map(|row| passes(row, model, settings)).collect()
+            let mut of = |stage: Stage| -> Vec<Pass> {
+                let rows = group.iter().filter(|row| row.stage == stage);
+                rows.flat_map(|row| passes(row, model, settings, &mut spans)).collect()
             };
             match group[0].stage {
                 Stage::Step => step.extend(of(Stage::Step)),
@@ -92,9 +97,9 @@ impl Plan {
                 Stage::Pose | Stage::Frame | Stage::Handover | Stage::Measure => {}
             }
         }
-        let frame =
-            rows.iter().filter(|row| row.stage == Stage::Frame).flat_map(|row| passes(row, model, settings)).collect();
-        Self { step, frame }
+        let of_frame = rows.iter().filter(|row| row.stage == Stage::Frame);
+        let frame = of_frame.flat_map(|row| passes(row, model, settings, &mut spans)).collect();
+        Self { step, frame, spans }
     }
 
     /// Every kernel of the plan, each once, in order of first use.
@@ -134,7 +139,7 @@ fn repeated(passes: &[Pass], times: u32) -> impl Iterator<Item = Pass> {
 impl Pass {
     /// One dispatch over so many items.
     pub fn over(kernel: Kernel, count: u32) -> Self {
-        Self { kernel, items: 0..count, colour: None, workgroup_per_item: false, grant: None }
+        Self { kernel, items: 0..count, span: None, workgroup_per_item: false, grant: None }
     }
 
     /// Workgroups to dispatch along x and y.
@@ -172,33 +177,46 @@ fn holds(need: Need, needs: &Needs) -> bool {
     }
 }
 
-fn passes(row: &Row, model: &Model, settings: &StepSettings) -> Vec<Pass> {
+fn passes(row: &Row, model: &Model, settings: &StepSettings, spans: &mut Vec<Span>) -> Vec<Pass> {
     let workgroup_per_item = matches!(row.domain, Domain::Hold | Domain::StrandColour);
-    let pass = |items, colour| Pass { kernel: row.kernel, items, colour, workgroup_per_item, grant: None };
+    let pass = |items, span| Pass { kernel: row.kernel, items, span, workgroup_per_item, grant: None };
     let all = |count: u32| vec![pass(0..count, None)];
-    let coloured = |colours: &[Range<u32>]| -> Vec<Pass> {
-        colours.iter().cloned().zip(0..).map(|(items, colour)| pass(items, Some(colour))).collect()
+    let mut coloured = |colours: &[Range<u32>], share: &dyn Fn(u32) -> f32| -> Vec<Pass> {
+        let span = |(items, colour): (&Range<u32>, u32)| {
+            let span = Span { first: items.start, count: items.end - items.start, share: share(colour) };
+            pass(items.clone(), Some(place(spans, span)))
+        };
+        colours.iter().zip(0..).map(span).collect()
     };
+    let whole = |_| 1.0;
     match row.domain {
         Domain::Particle => all(model.particle_count()),
         Domain::Quad => all(model.quad_count()),
         Domain::Point => all(model.particle_count() + model.quad_count()),
         Domain::Hold => all(model.holds.len() as u32),
         Domain::Limit => all(model.limits.len() as u32),
-        Domain::LimitColour => {
-            let times = match row.stage {
-                Stage::Turn | Stage::Sweep => settings.limit_passes(),
-                Stage::AfterSweeps => settings.guard_passes(),
-                _ => 1,
-            };
-            (0..times).flat_map(|_| coloured(&model.limit_colours)).collect()
-        }
-        Domain::StrandColour => coloured(&model.strand_colours),
+        Domain::LimitColour => match row.stage {
+            Stage::AfterSweeps => (0..settings.guard_passes())
+                .flat_map(|pass| coloured(&model.limit_colours, &|colour| settings.guard_share(pass, colour)))
+                .collect(),
+            Stage::Turn => (0..settings.limit_passes()).flat_map(|_| coloured(&model.limit_colours, &whole)).collect(),
+            _ => coloured(&model.limit_colours, &whole),
+        },
+        Domain::StrandColour => coloured(&model.strand_colours, &whole),
         Domain::SeamPair => all(model.seam_pair_count()),
-        Domain::SeamColour => coloured(&model.seam_colours),
+        Domain::SeamColour => coloured(&model.seam_colours, &whole),
         Domain::Workgroup => all(WORKGROUP_SIZE),
         Domain::Vertex => Vec::new(),
     }
+}
+
+/// Place of a span among those that there are, or at their end.
+fn place(spans: &mut Vec<Span>, span: Span) -> u32 {
+    let known = spans.iter().position(|known| *known == span);
+    known.unwrap_or_else(|| {
+        spans.push(span);
+        spans.len() - 1
+    }) as u32
 }
 
 impl fmt::Display for Plan {

@@ -28,8 +28,6 @@ pub struct Solver {
     programs: BTreeMap<Kernel, BoundProgram>,
     sphere: Option<Sphere>,
     sphere_after_maps: bool,
-    /// First spans of the strands and of the seam pairs; those of the limits come before.
-    first_spans: [u32; 2],
     particle_count: u32,
     status: StatusReader,
     step: u64,
@@ -82,15 +80,12 @@ impl Solver {
             (kernel, BoundProgram { program, group })
         };
         let programs = programs.into_iter().map(bound).collect();
-        let first_strand = model.limit_colours.len() as u32;
-        let first_spans = [first_strand, first_strand + model.strand_colours.len() as u32];
         Ok(Self {
             settings: settings.clone(),
             plan,
             programs,
             sphere: colliders.sphere,
             sphere_after_maps: colliders.maps.is_some(),
-            first_spans,
             particle_count: model.particle_count(),
             status: StatusReader::new(device),
             step: 0,
@@ -287,12 +282,7 @@ impl Solver {
     fn dispatch(&self, compute: &mut wgpu::ComputePass<'_>, pass: &Pass, step_of_frame: u32) {
         let bound = &self.programs[&pass.kernel];
         compute.set_pipeline(bound.program.pipeline());
-        let entry = match (pass.kernel, pass.colour) {
-            (Kernel::LimitStrands, Some(colour)) => self.first_spans[0] + colour,
-            (Kernel::CloseSeams, Some(colour)) => self.first_spans[1] + colour,
-            (_, Some(colour)) => colour,
-            (_, None) => step_of_frame,
-        };
+        let entry = pass.span.unwrap_or(step_of_frame);
         if bound.program.has_moving_uniform() {
             compute.set_bind_group(0, &bound.group, &[entry * MOVING_UNIFORM_STRIDE as u32]);
         } else {

@@ -61,6 +61,8 @@ pub struct Span {
     pub first: u32,
     /// Number of items.
     pub count: u32,
+    /// Part of an excess that a pass of the guard removes [1]; no other kernel reads it.
+    pub share: f32,
 }
 
 /// Rest length and stiffness of a link. `wgsl/step/spring_forces.wgsl`.

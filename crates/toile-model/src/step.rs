@@ -116,6 +116,12 @@ impl StepSettings {
         GUARD_PASSES * self.limit_turns
     }
 
+    /// Part of an excess that a pass of the guard removes from the springs of a colour [1]. All of it, but in the last pass every second colour
+    /// leaves half: along a taut line it takes the rest over from the colour before, which would get all of it back.
+    pub fn guard_share(&self, pass: u32, colour: u32) -> f32 {
+        if pass + 1 == self.guard_passes() && colour % 2 == 1 { 0.5 } else { 1.0 }
+    }
+
     /// How much the guard shortens a spring at once [m]: the thickness in all its passes, for that is what it has to give way.
     pub fn guard_way(&self) -> f32 {
         self.thickness / self.guard_passes() as f32

@@ -56,8 +56,10 @@ pub fn guard(particles: &mut Particles, model: &Model, settings: &StepSettings, 
     if settings.rule != Rule::Hierarchical || settings.sweeps == 0 || !model.seam_pairs.is_empty() {
         return;
     }
-    for colour in (0..settings.guard_passes()).flat_map(|_| &model.limit_colours) {
-        step::limit_guard(particles, part(&model.limits, colour), settings);
+    for pass in 0..settings.guard_passes() {
+        for (colour, index) in model.limit_colours.iter().zip(0..) {
+            step::limit_guard(particles, part(&model.limits, colour), settings.guard_share(pass, index), settings);
+        }
     }
     step::keep_out(particles, probes, settings);
 }

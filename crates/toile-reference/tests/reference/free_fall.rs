@@ -121,7 +121,7 @@ fn average_and_predictive_keep_momentum() {
     });
     assert!(acted && error < 1e-6, "warm start {error}");
     let (error, acted) = momentum_error(|particles, limits| {
-        step::limit_guard(particles, limits, &StepSettings { dt: 0.01, ..settings() })
+        step::limit_guard(particles, limits, 1.0, &StepSettings { dt: 0.01, ..settings() })
     });
     assert!(acted && error < 1e-6, "guard {error}");
 }

@@ -39,7 +39,7 @@ pub fn answer(kernel: Kernel, input: &mut Input) {
         Kernel::LimitPredictive => {
             step::limit_predictive(particles, before.colour_limits(), &mut input.limit_impulses[before.colour()], dt);
         }
-        Kernel::LimitGuard => step::limit_guard(particles, before.colour_limits(), settings),
+        Kernel::LimitGuard => step::limit_guard(particles, before.colour_limits(), before.share, settings),
         Kernel::KeepOut => step::keep_out(particles, &before.probes[..before.particles.positions.len()], settings),
         Kernel::LimitPosition => step::limit_position(particles, before.colour_limits()),
         Kernel::QuadMidpoints => {

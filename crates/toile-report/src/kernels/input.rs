@@ -49,6 +49,8 @@ pub struct Input {
     pub seam_pairs: Vec<SeamPair>,
     /// The items of the colour that the dispatch works on.
     pub span: Range<u32>,
+    /// Part of an excess that the guard removes [1].
+    pub share: f32,
     /// Held edges.
     pub holds: Vec<Hold>,
     /// Particles of the held edges.
@@ -175,7 +177,10 @@ impl Inputs for Input {
                 limit_count: self.limits.len() as u32,
                 ..step_params(&self.settings)
             }),
-            "span" => uniform(&structs::Span { first: self.span.start, count: self.span.end - self.span.start }),
+            "span" => {
+                let Range { start, end } = self.span;
+                uniform(&structs::Span { first: start, count: end - start, share: self.share })
+            }
             "ball" => uniform(&structs::Ball {
                 centre: self.ball.centre,
                 radius: self.ball.radius,

@@ -109,6 +109,7 @@ impl Seeds {
             limits,
             seam_pairs,
             span,
+            share: if variant == Variant::Weightless { 1.0 } else { 0.5 },
             holds,
             held_particles,
             particle_quads: Csr::from_rows((0..counts.particles).map(|_| {
