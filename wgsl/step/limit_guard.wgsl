@@ -1,5 +1,5 @@
-// After the contacts of the last sweep: what would still leave a spring stretched more than twice as far as its limit is removed
-// from the velocities of its ends, by inverse mass; so little at once that no end is flung into a body. One colour per dispatch.
+// After the contacts of the last sweep: what would still leave a spring stretched more than twice as far as its limit, or half of it, is
+// removed from the velocities of its ends, by inverse mass; so little at once that no end is flung into a body. One colour per dispatch.
 #import shared/item
 #import shared/step_params
 #import shared/span

@@ -181,30 +181,34 @@ fn passes(row: &Row, model: &Model, settings: &StepSettings, spans: &mut Vec<Spa
     let workgroup_per_item = matches!(row.domain, Domain::Hold | Domain::StrandColour);
     let pass = |items, span| Pass { kernel: row.kernel, items, span, workgroup_per_item, grant: None };
     let all = |count: u32| vec![pass(0..count, None)];
-    let mut coloured = |colours: &[Range<u32>], share: &dyn Fn(u32) -> f32| -> Vec<Pass> {
-        let span = |(items, colour): (&Range<u32>, u32)| {
-            let span = Span { first: items.start, count: items.end - items.start, share: share(colour) };
-            pass(items.clone(), Some(place(spans, span)))
-        };
-        colours.iter().zip(0..).map(span).collect()
+    let mut coloured = |colours: &[Range<u32>], times: u32| -> Vec<Pass> {
+        let mut passes = Vec::new();
+        for time in 0..times {
+            for (items, colour) in colours.iter().zip(0..) {
+                let share = if row.kernel == Kernel::LimitGuard { settings.guard_share(time, colour) } else { 1.0 };
+                let span = Span { first: items.start, count: items.end - items.start, share };
+                passes.push(pass(items.clone(), Some(place(spans, span))));
+            }
+        }
+        passes
     };
-    let whole = |_| 1.0;
     match row.domain {
         Domain::Particle => all(model.particle_count()),
         Domain::Quad => all(model.quad_count()),
         Domain::Point => all(model.particle_count() + model.quad_count()),
         Domain::Hold => all(model.holds.len() as u32),
         Domain::Limit => all(model.limits.len() as u32),
-        Domain::LimitColour => match row.stage {
-            Stage::AfterSweeps => (0..settings.guard_passes())
-                .flat_map(|pass| coloured(&model.limit_colours, &|colour| settings.guard_share(pass, colour)))
-                .collect(),
-            Stage::Turn => (0..settings.limit_passes()).flat_map(|_| coloured(&model.limit_colours, &whole)).collect(),
-            _ => coloured(&model.limit_colours, &whole),
-        },
-        Domain::StrandColour => coloured(&model.strand_colours, &whole),
+        Domain::LimitColour => {
+            let times = match row.stage {
+                Stage::Turn => settings.limit_passes(),
+                Stage::AfterSweeps => settings.guard_passes(),
+                _ => 1,
+            };
+            coloured(&model.limit_colours, times)
+        }
+        Domain::StrandColour => coloured(&model.strand_colours, 1),
         Domain::SeamPair => all(model.seam_pair_count()),
-        Domain::SeamColour => coloured(&model.seam_colours, &whole),
+        Domain::SeamColour => coloured(&model.seam_colours, 1),
         Domain::Workgroup => all(WORKGROUP_SIZE),
         Domain::Vertex => Vec::new(),
     }
