@@ -68,17 +68,23 @@ fn plans_of_the_rules() {
 
 #[test]
 fn the_guard_halves_what_second_colours_take_in_its_last_pass_and_nothing_else_is_halved() {
-    let plan = plan_of_scene(&scene("ball", &[]));
-    let (mut guard, mut others) = (Vec::new(), Vec::new());
-    for pass in &plan.step {
-        if let Some(place) = pass.span {
-            let span = plan.spans[place as usize];
-            assert_eq!(pass.items, span.first..span.first + span.count);
-            if pass.kernel == Kernel::LimitGuard { &mut guard } else { &mut others }.push(span.share);
+    let ball = scene("ball", &[]);
+    let model = sheet_model(&ball);
+    for guard_passes in [2, 4] {
+        let settings = StepSettings { guard_passes, ..StepSettings::new(&ball.settings, &model) };
+        let plan = plan(&model, &settings, &ball.bodies);
+        let (mut guard, mut others) = (Vec::new(), Vec::new());
+        for pass in &plan.step {
+            if let Some(place) = pass.span {
+                let span = plan.spans[place as usize];
+                assert_eq!(pass.items, span.first..span.first + span.count);
+                if pass.kernel == Kernel::LimitGuard { &mut guard } else { &mut others }.push(span.share);
+            }
         }
+        let last = guard.split_off(8 * (guard_passes - 1) as usize);
+        assert_eq!(last, [1.0, 0.5, 1.0, 0.5, 1.0, 0.5, 1.0, 0.5]);
+        assert!(guard.iter().chain(&others).all(|share| *share == 1.0) && !others.is_empty());
     }
-    assert_eq!(guard, [[1.0; 8], [1.0, 0.5, 1.0, 0.5, 1.0, 0.5, 1.0, 0.5]].concat());
-    assert!(!others.is_empty() && others.iter().all(|share| *share == 1.0));
 }
 
 #[test]
@@ -104,7 +110,7 @@ fn a_polish_repeats_the_sweep_behind_grants_and_a_plan_without_has_neither() {
     for name in SCENES {
         let plain = scene(name, &[]);
         let polished = scene(name, &[("polish", "{ target = 0.05, sweeps = 3 }")]);
-        let sweeps = plain.settings.velocity_modification.sweeps as usize;
+        let sweeps = plain.settings.velocity_modification.rule.sweeps() as usize;
         let [plain, polished] = [plain, polished].map(|scene| plan_and_bytes(&scene));
         let is_decision = |pass: &&Pass| pass.kernel == Kernel::GrantSweep;
         let free: Vec<_> = polished.0.step.iter().filter(|pass| pass.grant.is_none()).cloned().collect();
@@ -131,29 +137,6 @@ fn a_polish_repeats_the_sweep_behind_grants_and_a_plan_without_has_neither() {
         let bytes = 16 * further.len() as u64;
         let expected = [("polish", 16), ("polish_state", 16), ("sweep_dispatches", bytes), ("sweep_workgroups", bytes)];
         assert_eq!(new.into_iter().map(|(name, size)| (name.as_str(), *size)).collect::<Vec<_>>(), expected, "{name}");
-    }
-}
-
-#[test]
-fn a_sweep_goes_over_its_limits_turn_by_turn_before_the_bodies_answer() {
-    for name in SCENES {
-        let scene = scene(name, &[]);
-        let model = sheet_model(&scene);
-        let once = StepSettings::new(&scene.settings, &model);
-        let [once, twice] = [1, 2].map(|limit_turns| {
-            let settings = StepSettings { limit_turns, ..once.clone() };
-            // Which of its passes is the last is no matter of the turns.
-            let mut step = plan(&model, &settings, &scene.bodies).step;
-            step.iter_mut().filter(|pass| pass.kernel == Kernel::LimitGuard).for_each(|pass| pass.span = None);
-            let is_run = |a: &Pass, b: &Pass| a.kernel == b.kernel || is_limit(a) && is_limit(b);
-            step.chunk_by(is_run).map(<[Pass]>::to_vec).collect::<Vec<_>>()
-        });
-        let turned = |run: &Vec<Pass>| -> Vec<Pass> {
-            let times = if is_limit(&run[0]) || run[0].kernel == Kernel::LimitGuard { 2 } else { 1 };
-            run.iter().cycle().take(times * run.len()).cloned().collect()
-        };
-        let expected: Vec<_> = once.iter().map(turned).collect();
-        assert!(twice == expected && once.len() > 2, "{name}");
     }
 }
 

@@ -60,7 +60,7 @@ fn pinned_particles_do_not_move() {
     for rule in RULES {
         let Scene { settings, cloths, .. } = scene("hang", &[("n", "16")]);
         let settings = Settings {
-            velocity_modification: VelocityModification { sweeps: 2, ..VelocityModification::new(rule) },
+            velocity_modification: VelocityModification { sweeps: Some(2), ..VelocityModification::new(rule) },
             ..settings
         };
         let Cloth::Sheet(sheet) = &cloths[0] else { panic!("hang has a sheet") };

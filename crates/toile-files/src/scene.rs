@@ -124,8 +124,7 @@ fn settings(toml: &SceneToml, folder: &Path) -> Result<Settings, Problem> {
         RuleToml::Predictive => Rule::Predictive,
         RuleToml::Hierarchical => Rule::Hierarchical,
     });
-    let sweeps = toml.sweeps.unwrap_or(VelocityModification::new(rule).sweeps);
-    if sweeps == 0 {
+    if toml.sweeps == Some(0) {
         return Err(wrong("sweeps", "it must be at least 1; rule = \"none\" turns it off").into());
     }
     let polish = toml.polish.map(|polish| convert_polish(polish, rule)).transpose()?;
@@ -139,7 +138,7 @@ fn settings(toml: &SceneToml, folder: &Path) -> Result<Settings, Problem> {
     };
     let safety = toml.safety.unwrap_or(default.safety);
     Ok(Settings {
-        velocity_modification: VelocityModification { rule, sweeps, polish },
+        velocity_modification: VelocityModification { rule, sweeps: toml.sweeps, polish },
         friction,
         reflection: part("reflection", toml.reflection.unwrap_or(default.reflection))?,
         gravity: vector("gravity", toml.gravity.unwrap_or(default.gravity.to_array()))?,

@@ -73,32 +73,28 @@ impl Plan {
         let rows: Vec<&Row> = TABLE.iter().filter(|row| holds(row.need, needs)).collect();
         let mut spans = Vec::new();
         let mut step = Vec::new();
+        let mut frame = Vec::new();
         let mut sweep: Vec<Pass> = Vec::new();
-        // A sweep begins with its turns.
-        for group in rows.chunk_by(|a, b| a.stage == b.stage || (a.stage, b.stage) == (Stage::Turn, Stage::Sweep)) {
-            let mut of = |stage: Stage| -> Vec<Pass> {
-                let rows = group.iter().filter(|row| row.stage == stage);
-                rows.flat_map(|row| passes(row, model, settings, &mut spans)).collect()
-            };
+        for group in rows.chunk_by(|a, b| a.stage == b.stage) {
+            let group_passes: Vec<Pass> =
+                group.iter().flat_map(|row| passes(row, model, settings, &mut spans)).collect();
             match group[0].stage {
-                Stage::Step => step.extend(of(Stage::Step)),
-                Stage::Turn | Stage::Sweep => {
-                    sweep = repeated(&of(Stage::Turn), settings.limit_turns).chain(of(Stage::Sweep)).collect();
-                    step.extend(repeated(&sweep, settings.sweeps.max(1)));
+                Stage::Step => step.extend(group_passes),
+                Stage::Sweep => {
+                    step.extend(repeated(&group_passes, settings.sweeps.max(1)));
+                    sweep = group_passes;
                 }
                 Stage::AfterSweeps => {
-                    let after = of(Stage::AfterSweeps);
-                    step.extend(after.iter().cloned());
-                    sweep.extend(after);
+                    step.extend(group_passes.iter().cloned());
+                    sweep.extend(group_passes);
                 }
                 Stage::Polish => {
-                    step.extend(polish(&of(Stage::Polish), &sweep, settings.polish.map_or(0, |polish| polish.sweeps)));
+                    step.extend(polish(&group_passes, &sweep, settings.polish.map_or(0, |polish| polish.sweeps)));
                 }
-                Stage::Pose | Stage::Frame | Stage::Handover | Stage::Measure => {}
+                Stage::Frame => frame.extend(group_passes),
+                Stage::Pose | Stage::Handover | Stage::Measure => {}
             }
         }
-        let of_frame = rows.iter().filter(|row| row.stage == Stage::Frame);
-        let frame = of_frame.flat_map(|row| passes(row, model, settings, &mut spans)).collect();
         Self { step, frame, spans }
     }
 
@@ -200,8 +196,8 @@ fn passes(row: &Row, model: &Model, settings: &StepSettings, spans: &mut Vec<Spa
         Domain::Limit => all(model.limits.len() as u32),
         Domain::LimitColour => {
             let times = match row.stage {
-                Stage::Turn => settings.limit_passes(),
-                Stage::AfterSweeps => settings.guard_passes(),
+                Stage::Sweep => settings.limit_passes(),
+                Stage::AfterSweeps => settings.guard_passes,
                 _ => 1,
             };
             coloured(&model.limit_colours, times)

@@ -9,15 +9,13 @@ pub enum Stage {
     Pose,
     /// Once per step.
     Step,
-    /// Once per turn, of which a sweep begins with one or two: the limits agree among themselves before bodies and seams answer.
-    Turn,
     /// Once per sweep: consecutive rows of this stage are repeated together as often as the settings say, so that limits, bodies and
     /// seams take turns.
     Sweep,
     /// Once after the sweeps of a step, and after each further sweep of a polish.
     AfterSweeps,
-    /// Before each further sweep of a polish and after the last: it repeats the rows of [`Stage::Turn`], [`Stage::Sweep`] and
-    /// [`Stage::AfterSweeps`] before it.
+    /// Before each further sweep of a polish and after the last: it repeats the rows of [`Stage::Sweep`] and [`Stage::AfterSweeps`]
+    /// before it.
     Polish,
     /// Once per frame, after its steps.
     Frame,
@@ -171,17 +169,17 @@ kernels! {
     /// Labelled edges keep their mean height while sewing.
     HoldEdges "step" "hold_edges" Step Hold Holds;
     /// D §4.3.
-    LimitZero "step" "limit_zero" Turn LimitColour RuleZero;
+    LimitZero "step" "limit_zero" Sweep LimitColour RuleZero;
     /// W eq. 5.
-    LimitAverage "step" "limit_average" Turn LimitColour RuleAverage;
+    LimitAverage "step" "limit_average" Sweep LimitColour RuleAverage;
     /// W §3.2, eq. 6.
-    LimitDirectional "step" "limit_directional" Turn LimitColour RuleDirectional;
+    LimitDirectional "step" "limit_directional" Sweep LimitColour RuleDirectional;
     /// From pins outward, before the limits between neighbours.
-    LimitAttachments "step" "limit_attachments" Turn Particle Attachments;
+    LimitAttachments "step" "limit_attachments" Sweep Particle Attachments;
     /// The default rule, along lines of cloth.
-    LimitStrands "step" "limit_strands" Turn StrandColour Strands;
+    LimitStrands "step" "limit_strands" Sweep StrandColour Strands;
     /// The predictive rule on single springs; under the default rule after the strands.
-    LimitPredictive "step" "limit_predictive" Turn LimitColour RulePredictive;
+    LimitPredictive "step" "limit_predictive" Sweep LimitColour RulePredictive;
     /// Points of the quads that are tested. D §6.
     QuadMidpoints "step" "quad_midpoints" Sweep Quad Body;
     /// What points see in the maps of bodies at rest. W §4.4.

@@ -3,18 +3,19 @@
 use crate::Model;
 use crate::assemble::aim;
 use glam::Vec3;
-use toile_scene::{Friction, Polish, Rule, Settings, Wind};
+use toile_scene::{Friction, Polish, Rule, Settings, VelocityModification, Wind};
 
 /// Passes over single springs after the strands. Strands of four directions disagree by what single springs are left with, most where cloth
 /// whips or slaps on a body and longer limits are slack.
 const LIMIT_PASSES: u32 = 2;
 
-/// Cells along the longest limits of a cloth from which on a sweep has two turns.
-const CELLS_FOR_TWO_TURNS: u32 = 64;
-
-/// Passes over single springs after all sweeps, for each turn that a sweep has. In one, springs of the first colours get back part of what
-/// they lost from those that come after them.
+/// Passes over single springs after all sweeps. In one, springs of the first colours get back part of what they lost from those that come
+/// after them.
 const GUARD_PASSES: u32 = 2;
+
+/// Cells along the longest limits from which on cloth is large: it has a fourth sweep and twice the guard, for where it whips or slaps on a
+/// body it becomes taut within a step over several cells.
+const CELLS_OF_LARGE_CLOTH: u32 = 64;
 
 /// Twenty times the weight of the cloth: of cotton about 30 Pa, as if it were drawn with 3 N/m around a waist [m/s²].
 const PRESSING: f32 = 200.0;
@@ -55,9 +56,8 @@ pub struct StepSettings {
     pub rule: Rule,
     /// Sweeps over all limits per step.
     pub sweeps: u32,
-    /// How often a sweep goes over the limits before bodies and seams answer: twice where the longest limits span 64 cells, in a cloth of
-    /// 512 × 512 particles, and more.
-    pub limit_turns: u32,
+    /// How often the guard goes over the limits of single springs at the end of a step.
+    pub guard_passes: u32,
     /// Further sweeps in steps that need them.
     pub polish: Option<Polish>,
     /// Whether the whole way of a point is tested against the bodies, not its end alone.
@@ -71,6 +71,8 @@ impl StepSettings {
         let frame = 1.0 / settings.frame_rate;
         let bound = model.step_wanted.unwrap_or(f64::INFINITY).min(settings.safety * stable_step(model));
         let steps_per_frame = (frame / bound - 1e-3).ceil().max(1.0);
+        let VelocityModification { rule, sweeps, polish } = settings.velocity_modification;
+        let is_large = is_large(model);
         Self {
             dt: (frame / steps_per_frame) as f32,
             steps_per_frame: steps_per_frame as u32,
@@ -86,10 +88,10 @@ impl StepSettings {
             pressing: PRESSING,
             hold_rate: 10.0,
             hold_speed: 0.5,
-            rule: settings.velocity_modification.rule,
-            sweeps: settings.velocity_modification.sweeps,
-            limit_turns: limit_turns(model),
-            polish: settings.velocity_modification.polish,
+            rule,
+            sweeps: sweeps.unwrap_or(rule.sweeps() + u32::from(is_large)),
+            guard_passes: if is_large { 2 * GUARD_PASSES } else { GUARD_PASSES },
+            polish,
             swept: settings.swept,
         }
     }
@@ -106,25 +108,20 @@ impl StepSettings {
         aim(self.rule)
     }
 
-    /// How often a turn goes over the limits of single springs.
+    /// How often a sweep goes over the limits of single springs.
     pub fn limit_passes(&self) -> u32 {
         if self.rule == Rule::Hierarchical { LIMIT_PASSES } else { 1 }
-    }
-
-    /// How often the guard goes over the limits of single springs at the end of a step.
-    pub fn guard_passes(&self) -> u32 {
-        GUARD_PASSES * self.limit_turns
     }
 
     /// Part of an excess that a pass of the guard removes from the springs of a colour [1]. All of it, but in the last pass every second colour
     /// leaves half: along a taut line it takes the rest over from the colour before, which would get all of it back.
     pub fn guard_share(&self, pass: u32, colour: u32) -> f32 {
-        if pass + 1 == self.guard_passes() && colour % 2 == 1 { 0.5 } else { 1.0 }
+        if pass + 1 == self.guard_passes && colour % 2 == 1 { 0.5 } else { 1.0 }
     }
 
     /// How much the guard shortens a spring at once [m]: the thickness in all its passes, for that is what it has to give way.
     pub fn guard_way(&self) -> f32 {
-        self.thickness / self.guard_passes() as f32
+        self.thickness / self.guard_passes as f32
     }
 
     /// The change of normal speed by one sweep that friction counts at most [m/s]: what [`Self::pressing`] gives in a step, in equal parts;
@@ -134,9 +131,8 @@ impl StepSettings {
     }
 }
 
-fn limit_turns(model: &Model) -> u32 {
-    let cells_max = model.strands.iter().map(|strand| strand.stride << (strand.level_count - 1)).max();
-    if cells_max.is_some_and(|cells| cells >= CELLS_FOR_TWO_TURNS) { 2 } else { 1 }
+fn is_large(model: &Model) -> bool {
+    model.strands.iter().any(|strand| strand.stride << (strand.level_count - 1) >= CELLS_OF_LARGE_CLOTH)
 }
 
 /// Largest step [s] at which symplectic Euler is surely stable on this model's springs: 2/ω with Gershgorin's bound

@@ -15,7 +15,7 @@ pub fn warm_start(particles: &mut Particles, model: &Model, settings: &StepSetti
     }
 }
 
-/// The limits' part of a sweep, turn by turn; under the hierarchical rule from pins outward, along strands, then single springs. `contacts`
+/// The limits' part of a sweep; under the hierarchical rule from pins outward, along strands, then single springs. `contacts`
 /// are those of the last step, shape [particle_count], where there is a body; `impulses` [N·s] go on through the step, shape [limit_count].
 pub fn sweep(
     particles: &mut Particles,
@@ -27,24 +27,22 @@ pub fn sweep(
     if settings.sweeps == 0 {
         return;
     }
-    for _ in 0..settings.limit_turns {
-        if settings.rule == Rule::Hierarchical {
-            step::limit_attachments(particles, &model.attachments, settings.dt);
-            let (line, lengths) = (&model.strand_particles, &model.strand_lengths);
-            for colour in &model.strand_colours {
-                step::limit_strands(particles, part(&model.strands, colour), line, lengths, settings.dt);
-            }
+    if settings.rule == Rule::Hierarchical {
+        step::limit_attachments(particles, &model.attachments, settings.dt);
+        let (line, lengths) = (&model.strand_particles, &model.strand_lengths);
+        for colour in &model.strand_colours {
+            step::limit_strands(particles, part(&model.strands, colour), line, lengths, settings.dt);
         }
-        for colour in (0..settings.limit_passes()).flat_map(|_| &model.limit_colours) {
-            let limits = part(&model.limits, colour);
-            match settings.rule {
-                Rule::None | Rule::Position => {}
-                Rule::Zero => step::limit_zero(particles, limits),
-                Rule::Average => step::limit_average(particles, limits),
-                Rule::Directional => step::limit_directional(particles, limits, contacts, settings),
-                Rule::Predictive | Rule::Hierarchical => {
-                    step::limit_predictive(particles, limits, part_mut(impulses, colour), settings.dt);
-                }
+    }
+    for colour in (0..settings.limit_passes()).flat_map(|_| &model.limit_colours) {
+        let limits = part(&model.limits, colour);
+        match settings.rule {
+            Rule::None | Rule::Position => {}
+            Rule::Zero => step::limit_zero(particles, limits),
+            Rule::Average => step::limit_average(particles, limits),
+            Rule::Directional => step::limit_directional(particles, limits, contacts, settings),
+            Rule::Predictive | Rule::Hierarchical => {
+                step::limit_predictive(particles, limits, part_mut(impulses, colour), settings.dt);
             }
         }
     }
@@ -56,7 +54,7 @@ pub fn guard(particles: &mut Particles, model: &Model, settings: &StepSettings, 
     if settings.rule != Rule::Hierarchical || settings.sweeps == 0 || !model.seam_pairs.is_empty() {
         return;
     }
-    for pass in 0..settings.guard_passes() {
+    for pass in 0..settings.guard_passes {
         for (colour, index) in model.limit_colours.iter().zip(0..) {
             step::limit_guard(particles, part(&model.limits, colour), settings.guard_share(pass, index), settings);
         }

@@ -50,7 +50,7 @@ pub struct Colliders {
 ///     hold_speed: 0.5,
 ///     rule: Rule::Predictive,
 ///     sweeps: 1,
-///     limit_turns: 1,
+///     guard_passes: 2,
 ///     polish: None,
 ///     swept: true,
 /// };

@@ -87,16 +87,18 @@ impl Wind {
 pub struct VelocityModification {
     /// Which rule.
     pub rule: Rule,
-    /// How often the rule goes over all limits in one step; after each time the cloth answers the bodies.
-    pub sweeps: u32,
+    /// How often the rule goes over all limits in one step; after each time the cloth answers the bodies. `None` is as often as the rule
+    /// and the size of the cloth ask: [`Rule::sweeps`], and once more where the longest limits span 64 cells, as in a sheet of
+    /// 512 × 512 particles.
+    pub sweeps: Option<u32>,
     /// Further sweeps in steps that need them; `None` is none. It needs [`Rule::Predictive`] or [`Rule::Hierarchical`].
     pub polish: Option<Polish>,
 }
 
 impl VelocityModification {
-    /// A rule with the sweeps that it is made for: three of hierarchical limits, one of all others.
+    /// A rule with the sweeps that it is made for.
     pub fn new(rule: Rule) -> Self {
-        Self { rule, sweeps: if rule == Rule::Hierarchical { 3 } else { 1 }, polish: None }
+        Self { rule, sweeps: None, polish: None }
     }
 }
 
@@ -144,6 +146,13 @@ pub enum Rule {
     /// has pins, from each of them outward. After the sweeps no contact may leave a spring stretched more than twice as far as its limit, as far as
     /// the thickness of the cloth gives way, unless seams are open.
     Hierarchical,
+}
+
+impl Rule {
+    /// Sweeps per step that the rule is made for: three of hierarchical limits, one of all others.
+    pub fn sweeps(self) -> u32 {
+        if self == Self::Hierarchical { 3 } else { 1 }
+    }
 }
 
 /// How the cloth slides on a body.

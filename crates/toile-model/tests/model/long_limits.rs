@@ -149,14 +149,26 @@ fn a_ribbon_too_long_for_its_limits_has_strands_all_the_same() {
 }
 
 #[test]
-fn a_sweep_has_two_turns_where_the_longest_limits_span_64_cells() {
-    let settings = hierarchical(0.01);
-    for (stride, level_count, limit_turns) in [(1, 6, 1), (1, 7, 2), (2, 5, 1), (2, 6, 2), (2, 7, 2)] {
+fn cloth_has_a_fourth_sweep_and_twice_the_guard_where_its_longest_limits_span_64_cells() {
+    let mut settings = hierarchical(0.01);
+    let numbers = |settings: &Settings, model: &Model| {
+        let step = StepSettings::new(settings, model);
+        (step.sweeps, step.guard_passes)
+    };
+    for (stride, level_count, expected) in
+        [(1, 6, (3, 2)), (1, 7, (4, 4)), (2, 5, (3, 2)), (2, 6, (4, 4)), (2, 7, (4, 4))]
+    {
         let strand = Strand { particles: 0..100, stride, lengths: 0, level_count };
         let model = Model { strands: vec![strand], ..Model::default() };
-        assert_eq!(StepSettings::new(&settings, &model).limit_turns, limit_turns, "{level_count} levels of {stride}");
+        settings.velocity_modification.sweeps = None;
+        assert_eq!(numbers(&settings, &model), expected, "{level_count} levels of {stride}");
+        settings.velocity_modification.sweeps = Some(2);
+        assert_eq!(numbers(&settings, &model), (2, expected.1), "{level_count} levels of {stride}, two sweeps asked");
     }
-    assert_eq!(StepSettings::new(&settings, &sheet(20, 20, Vec::new())).limit_turns, 1);
+    settings.velocity_modification.sweeps = None;
+    assert_eq!(numbers(&settings, &sheet(20, 20, Vec::new())), (3, 2));
+    settings.velocity_modification = VelocityModification::new(Rule::Predictive);
+    assert_eq!(numbers(&settings, &sheet(20, 20, Vec::new())).0, 1);
 }
 
 #[test]

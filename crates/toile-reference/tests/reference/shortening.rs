@@ -29,7 +29,7 @@ fn curtain(rule: Rule) -> (Model, StepSettings) {
     };
     let sweeps = if rule == Rule::Hierarchical { 4 } else { 16 };
     let settings = Settings {
-        velocity_modification: VelocityModification { sweeps, ..VelocityModification::new(rule) },
+        velocity_modification: VelocityModification { sweeps: Some(sweeps), ..VelocityModification::new(rule) },
         ..Settings::new(fabric)
     };
     let sheet = Sheet {

@@ -30,7 +30,7 @@ pub fn settings() -> StepSettings {
         hold_speed: 0.5,
         rule: Rule::None,
         sweeps: 1,
-        limit_turns: 1,
+        guard_passes: 2,
         polish: None,
         swept: true,
     }

@@ -103,8 +103,8 @@ impl RestScene {
 impl RestSettings {
     /// The default settings with n × n particles.
     pub fn new(n: u32) -> Self {
-        let VelocityModification { rule, sweeps, .. } = VelocityModification::new(Rule::Hierarchical);
-        Self { n, rule, sweeps, step_division: 1, frame_rate: 60.0 }
+        let rule = Rule::Hierarchical;
+        Self { n, rule, sweeps: rule.sweeps(), step_division: 1, frame_rate: 60.0 }
     }
 }
 
@@ -114,7 +114,7 @@ pub fn come_to_rest(lab: &Lab, scene: RestScene, change: RestSettings) -> Result
     settings.fabric.damping = DAMPING;
     settings.frame_rate = change.frame_rate;
     settings.velocity_modification =
-        VelocityModification { sweeps: change.sweeps, ..VelocityModification::new(change.rule) };
+        VelocityModification { sweeps: Some(change.sweeps), ..VelocityModification::new(change.rule) };
     let mut model = Model::from_sheet(&scene.sheet(change.n), &settings);
     scene.place(&mut model);
     let mut step = StepSettings::new(&settings, &model);

@@ -42,7 +42,7 @@ pub struct Limited {
 pub fn limited(lab: &Lab, limiting: Limiting, frames: u32) -> Result<Limited, LabError> {
     let (sheet, mut settings) = hanging_sheet(limiting.n);
     settings.velocity_modification =
-        VelocityModification { sweeps: limiting.sweeps, ..VelocityModification::new(limiting.rule) };
+        VelocityModification { sweeps: Some(limiting.sweeps), ..VelocityModification::new(limiting.rule) };
     let model = Model::from_sheet(&sheet, &settings);
     let mut step = StepSettings::new(&settings, &model);
     step.dt /= limiting.step_division as f32;

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use toile::Colliders;
 use toile::gpu::{BodyMaps, Surface};
 use toile::model::{Csr, MapFrame, Model, StepSettings};
-use toile::scene::{Friction, Rule, Settings, Sphere, SphereMotion, Wind};
+use toile::scene::{Friction, Rule, Settings, Sphere, SphereMotion, VelocityModification, Wind};
 
 /// Edge length of the texels of the moving sphere [m].
 const TEXEL: f32 = 0.01;
@@ -88,7 +88,11 @@ fn change_settings(trial: Trial, settings: &mut Settings) {
     match trial.changed {
         Some(Term::Wind) => settings.wind = Some(Wind::new(DVec3::new(0.0, 0.0, -3.0))),
         Some(Term::BendSprings) => settings.fabric.bend_stiffness = 0.0,
-        Some(Term::Levels) => settings.velocity_modification.rule = Rule::Predictive,
+        Some(Term::Levels) => {
+            let sweeps = Some(Rule::Hierarchical.sweeps());
+            settings.velocity_modification =
+                VelocityModification { sweeps, ..VelocityModification::new(Rule::Predictive) };
+        }
         Some(Term::Friction) => settings.fabric.friction = 0.0,
         Some(Term::FrictionLaw) => {
             settings.friction = Friction::Papers { velocity_kept: 0.8, force_removed: 0.5 };
