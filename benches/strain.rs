@@ -130,14 +130,14 @@ impl Row {
             Simulation::new(&bench.device, &model, &settings, colliders).unwrap_or_else(|error| panic!("{error}"));
         let frames = options.frames.unwrap_or(if name == "moving-ball" { 240 } else { 120 });
         let mut over_run = 0.0_f64;
+        let mut elongations = vec![0.0];
         for _ in 0..frames {
-            let Some(elongations) = frame(bench, &mut simulation, &model.limits) else {
-                over_run = f64::INFINITY;
-                break;
-            };
+            elongations = frame(bench, &mut simulation, &model.limits).unwrap_or_else(|| vec![f64::INFINITY]);
             over_run = over_run.max(elongations[elongations.len() - 1]);
+            if over_run.is_infinite() {
+                break;
+            }
         }
-        let elongations = frame(bench, &mut simulation, &model.limits).unwrap_or_else(|| vec![f64::INFINITY]);
         let strain = simulation.strain().ok().flatten();
         let per_step = |count: fn(&Strain) -> u32| {
             strain.as_ref().map_or(f64::INFINITY, |strain| f64::from(count(strain)) / strain.step as f64)

@@ -5,13 +5,10 @@ use toile_model::StepSettings;
 use toile_scene::{Friction, Polish, Rule, VelocityModification, Wind};
 use toile_workspace::{Layers, finish_frame, first_difference, gpu, scene, sheet_model, sphere, uv_sphere, vec3_words};
 
-const RULES: [Rule; 7] =
-    [Rule::None, Rule::Zero, Rule::Average, Rule::Directional, Rule::Position, Rule::Predictive, Rule::Hierarchical];
-
 #[test]
 fn a_hanging_sheet_agrees_under_every_rule() {
     for n in ["16", "33"] {
-        for rule in RULES {
+        for (_, rule) in Rule::ALL {
             let mut hang = scene("hang", &[("n", n)]);
             hang.settings.velocity_modification =
                 VelocityModification { sweeps: Some(3), ..VelocityModification::new(rule) };
@@ -30,7 +27,7 @@ fn a_sheet_on_a_sphere_agrees_under_every_rule_and_both_friction_laws() {
         ("moving-ball", vec![Friction::Coulomb]),
     ] {
         for law in laws {
-            for rule in RULES {
+            for (_, rule) in Rule::ALL {
                 // Lower, so that it touches within few frames.
                 let mut ball = scene(name, &[("n", "17"), ("sheet.0.corner", "[-0.5, 0.256, 0.5]")]);
                 ball.settings.velocity_modification =

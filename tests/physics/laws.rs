@@ -7,9 +7,6 @@ use toile_report::experiments::validation::laws::{free_fall_error, momentum_erro
 use toile_scene::{Cloth, Rule, Scene, Settings, VelocityModification};
 use toile_workspace::{advance, gpu, lab, scene};
 
-const RULES: [Rule; 7] =
-    [Rule::None, Rule::Zero, Rule::Average, Rule::Directional, Rule::Position, Rule::Predictive, Rule::Hierarchical];
-
 fn simulate(model: &Model, settings: &StepSettings) -> Simulation {
     Simulation::new(&gpu().device, model, settings, Default::default()).expect("it fits the device")
 }
@@ -57,7 +54,7 @@ fn springs_keep_the_angular_momentum() {
 
 #[test]
 fn pinned_particles_do_not_move() {
-    for rule in RULES {
+    for (_, rule) in Rule::ALL {
         let Scene { settings, cloths, .. } = scene("hang", &[("n", "16")]);
         let settings = Settings {
             velocity_modification: VelocityModification { sweeps: Some(2), ..VelocityModification::new(rule) },

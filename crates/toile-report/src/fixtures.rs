@@ -3,20 +3,9 @@
 use crate::LabError;
 use glam::{DVec2, DVec3};
 use toile::files::{BodyOptions, parse_body};
-use toile::scene::{Fabric, Mesh, Pin, Rule, Settings, Sheet, Sphere, SphereMotion, Threshold};
+use toile::scene::{Fabric, Mesh, Pin, Settings, Sheet, Sphere, SphereMotion, Threshold};
 
 const BODY: &[u8] = include_bytes!("../../../fixtures/bodies/walking_woman.glb");
-
-/// Every rule of the velocity modification, by the name that scenes give it.
-pub const RULES: [(&str, Rule); 7] = [
-    ("none", Rule::None),
-    ("zero", Rule::Zero),
-    ("average", Rule::Average),
-    ("directional", Rule::Directional),
-    ("position", Rule::Position),
-    ("predictive", Rule::Predictive),
-    ("hierarchical", Rule::Hierarchical),
-];
 
 /// The fabric of the sheets: soft springs, so that it is the limits that hold the stretch, and little damping, so that a low
 /// elongation is not the work of the damping.

@@ -149,6 +149,17 @@ pub enum Rule {
 }
 
 impl Rule {
+    /// Every rule, by the name that scenes give it.
+    pub const ALL: [(&'static str, Self); 7] = [
+        ("none", Self::None),
+        ("zero", Self::Zero),
+        ("average", Self::Average),
+        ("directional", Self::Directional),
+        ("position", Self::Position),
+        ("predictive", Self::Predictive),
+        ("hierarchical", Self::Hierarchical),
+    ];
+
     /// Sweeps per step that the rule is made for: three of hierarchical limits, one of all others.
     pub fn sweeps(self) -> u32 {
         if self == Self::Hierarchical { 3 } else { 1 }

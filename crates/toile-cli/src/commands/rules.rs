@@ -17,15 +17,6 @@ use toile::files::{SceneFile, read_scene, write_atomically};
 use toile::model::{Model, Status, StepSettings};
 use toile::scene::{Cloth, Mesh, Rule, Sphere, VelocityModification};
 
-const RULES: [(&str, Rule); 7] = [
-    ("none", Rule::None),
-    ("zero", Rule::Zero),
-    ("average", Rule::Average),
-    ("directional", Rule::Directional),
-    ("position", Rule::Position),
-    ("predictive", Rule::Predictive),
-    ("hierarchical", Rule::Hierarchical),
-];
 /// Height of the pictures [px].
 const PICTURE_HEIGHT: u32 = 480;
 
@@ -60,7 +51,7 @@ pub fn run(arguments: &Rules) -> Result<()> {
     };
     let mut rows = Vec::new();
     let mut pictures = Vec::new();
-    for (name, rule) in RULES {
+    for (name, rule) in Rule::ALL {
         let (row, mesh, ball) = try_rule(&file, name, rule, &computer, running.quiet || running.json)?;
         let mut drawn = vec![Drawn::cloth(&mesh, 0, file.scene.settings.fabric.thickness)];
         drawn.extend(ball.as_ref().map(Drawn::body));

@@ -5,7 +5,9 @@ use glam::DVec3;
 use std::fs;
 use std::path::Path;
 use toile_files::{SceneFile, read_fabric, read_scene};
-use toile_scene::{Body, Cloth, Fabric, Friction, Polish, Rule, Sheet, SphereMotion, Threshold, Wind};
+use toile_scene::{
+    Body, Cloth, Fabric, Friction, Polish, Rule, Sheet, SphereMotion, Threshold, VelocityModification, Wind,
+};
 
 fn overrides(pairs: &[(&str, &str)]) -> Vec<(String, String)> {
     pairs.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect()
@@ -90,6 +92,16 @@ fn a_fabric_is_named_or_differs_from_a_named_one() {
     let changed = hang(&[("fabric", "denim"), ("fabric.friction", "0.1")]);
     let expected = Fabric { friction: 0.1, ..Fabric::preset("denim").expect("a preset") };
     assert_eq!(changed.scene.settings.fabric, expected);
+}
+
+#[test]
+fn a_scene_names_any_rule_and_its_sweeps_if_it_cares() {
+    for (name, rule) in Rule::ALL {
+        for (sweeps, pairs) in [(None, vec![("rule", name)]), (Some(5), vec![("rule", name), ("sweeps", "5")])] {
+            let expected = VelocityModification { sweeps, ..VelocityModification::new(rule) };
+            assert_eq!(hang(&pairs).scene.settings.velocity_modification, expected, "{name}");
+        }
+    }
 }
 
 #[test]

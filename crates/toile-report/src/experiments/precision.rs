@@ -12,22 +12,10 @@ pub use refinement::shape_errors;
 
 use crate::page::{Block, Section};
 use crate::{Experiment, Lab, LabError};
-use toile::scene::Rule;
 
 /// The row of the table.
 pub const EXPERIMENT: Experiment =
     Experiment { name: "precision", title: "Work-precision: which error costs how much", minutes: [0.5, 4.5], run };
-
-/// Every rule of the velocity modification.
-const RULES: [(&str, Rule); 7] = [
-    ("none", Rule::None),
-    ("zero", Rule::Zero),
-    ("average", Rule::Average),
-    ("directional", Rule::Directional),
-    ("position", Rule::Position),
-    ("predictive", Rule::Predictive),
-    ("hierarchical", Rule::Hierarchical),
-];
 
 fn run(lab: &mut Lab) -> Result<Section, LabError> {
     let lead = "What an error costs, in the four places where it comes from: limits that end before they converge, the length of the step, \

@@ -1,6 +1,6 @@
 //! Stability atlas: the largest stable step.
 
-use crate::fixtures::{RULES, ball, hanging_sheet};
+use crate::fixtures::{ball, hanging_sheet};
 use crate::page::{Axis, Block, Cell, Plot, Section, Series, SeriesStyle, Table};
 use crate::{Experiment, Lab, LabError};
 use std::f64::consts::PI;
@@ -132,7 +132,7 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
     };
     let stiffnesses = lab.pick(vec![2.0, 20.0, 200.0], vec![2.0, 6.0, 20.0, 60.0, 200.0, 600.0]);
     let mut corners: Vec<(String, &str, Corner)> = Vec::new();
-    for (name, rule) in RULES {
+    for (name, rule) in Rule::ALL {
         for &stiffness in &stiffnesses {
             corners.push((format!("K = {stiffness} N/m"), name, Corner { rule, stiffness, ..base }));
         }
@@ -160,7 +160,7 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
         ["our bound is safe", ""],
     ];
     let mut table = Table::new(caption.clone(), columns);
-    let mut curves: Vec<Vec<[f64; 2]>> = vec![Vec::new(); RULES.len()];
+    let mut curves: Vec<Vec<[f64; 2]>> = vec![Vec::new(); Rule::ALL.len()];
     let mut bound = Vec::new();
     let [mut papers_fail, mut ours_fail] = [0, 0];
     let count = corners.len();
@@ -188,7 +188,7 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
             Cell::text(safe(found.bound)),
         ]);
         if (corner.damping, corner.contact, corner.mass_ratio) == (base.damping, false, 1.0) {
-            let rule = RULES.iter().position(|(rule, _)| *rule == name).expect("it is one of them");
+            let rule = Rule::ALL.iter().position(|(rule, _)| *rule == name).expect("it is one of them");
             curves[rule].push([corner.stiffness, found.dt.min(REACH[1] * found.unit) / found.unit]);
             if corner.rule == Rule::None {
                 bound.push([corner.stiffness, found.bound / found.unit]);
@@ -200,7 +200,7 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
         Series::new("D eq. 4", SeriesStyle::Line, ends.map(|x| [x, 0.4 * PI])),
         Series::new("our bound", SeriesStyle::Line, bound),
     ];
-    let measured = RULES.iter().zip(curves);
+    let measured = Rule::ALL.iter().zip(curves);
     series.extend(measured.map(|((name, _), points)| Series::new(*name, SeriesStyle::LineAndMarks, points)));
     let plot = Plot {
         caption: format!(

@@ -97,7 +97,7 @@ pub(super) fn blocks(lab: &mut Lab, progress: [f64; 2]) -> Result<Vec<Block>, La
     let rows: Vec<(usize, Limiting)> = sizes.iter().flat_map(|n| limitings(lab, *n)).collect();
     for (index, (rule, limiting)) in rows.iter().enumerate() {
         let share = progress[0] + (progress[1] - progress[0]) * index as f64 / rows.len() as f64;
-        let name = super::RULES[*rule].0;
+        let name = Rule::ALL[*rule].0;
         lab.say(share, &format!("elongation, {name}, n = {}", limiting.n))?;
         let limited = limited(lab, *limiting, frames)?;
         let excess = limited.elongation_max - threshold;
@@ -114,7 +114,7 @@ pub(super) fn blocks(lab: &mut Lab, progress: [f64; 2]) -> Result<Vec<Block>, La
             Cell::number_or_missing(limited.copies),
         ]);
     }
-    let series = curves.into_iter().map(|(rule, points)| Series::new(super::RULES[rule].0, SeriesStyle::Marks, points));
+    let series = curves.into_iter().map(|(rule, points)| Series::new(Rule::ALL[rule].0, SeriesStyle::Marks, points));
     let plot = Plot {
         caption: format!(
             "{caption} Runs that diverged are not drawn; an excess below {EXCESS_MIN} is drawn at {EXCESS_MIN}."
@@ -139,5 +139,5 @@ fn limitings(lab: &Lab, n: u32) -> Vec<(usize, Limiting)> {
         let last = sweeps[sweeps.len() - 1];
         sweeps.iter().map(|sweeps| (*sweeps, 1)).chain([(last, 2)]).map(with).collect()
     };
-    super::RULES.into_iter().enumerate().flat_map(of_rule).collect()
+    Rule::ALL.into_iter().enumerate().flat_map(of_rule).collect()
 }

@@ -95,8 +95,8 @@ pub(super) fn blocks(lab: &mut Lab, progress: [f64; 2]) -> Result<Vec<Block>, La
 fn moving(lab: &mut Lab, progress: [f64; 2]) -> Result<Vec<Block>, LabError> {
     let steps: &[u32] = lab.pick(&[16, 32, 64], &[16, 32, 64, 128, 256]);
     let rules: Vec<(&str, Rule)> = match lab.pick(true, false) {
-        true => super::RULES.into_iter().filter(|(name, _)| ["none", "average", "predictive"].contains(name)).collect(),
-        false => super::RULES.to_vec(),
+        true => Rule::ALL.into_iter().filter(|(name, _)| ["none", "average", "predictive"].contains(name)).collect(),
+        false => Rule::ALL.to_vec(),
     };
     let caption = format!(
         "Position error after {SECONDS} s against the springs alone in f64 with a Runge-Kutta step of {} ms: a sheet of 0.25 m × 0.25 m, \

@@ -1,6 +1,6 @@
 //! Free fall and momentum of a sheet that nothing holds.
 
-use crate::fixtures::{RULES, fabric};
+use crate::fixtures::fabric;
 use crate::page::{Axis, Block, Cell, Plot, Series, SeriesStyle, Table};
 use crate::{Lab, LabError, Random, Run};
 use glam::{DVec2, DVec3};
@@ -105,7 +105,7 @@ pub(super) fn blocks(lab: &mut Lab) -> Result<Vec<Block>, LabError> {
     let columns =
         &[["rule", ""], ["free fall, error", "1"], ["momentum gained", "1"], ["angular momentum gained", "1"]];
     let mut table = Table::new(caption, columns);
-    for (name, rule) in RULES {
+    for (name, rule) in Rule::ALL {
         lab.say(0.0, &format!("laws: {name}"))?;
         let fall = free_fall_error(lab, rule, 16)?;
         let momentum = momentum_error(lab, rule)?;
