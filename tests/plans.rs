@@ -56,9 +56,7 @@ fn plans_of_the_garments() {
 #[test]
 fn plans_of_the_rules() {
     let mut text = String::new();
-    for rule in
-        [Rule::None, Rule::Zero, Rule::Average, Rule::Directional, Rule::Position, Rule::Predictive, Rule::Hierarchical]
-    {
+    for (_, rule) in Rule::ALL {
         let mut hang = scene("hang", &[("sweeps", "2")]);
         hang.settings.velocity_modification.rule = rule;
         writeln!(text, "# {rule:?}, two sweeps\n{}", plan_of_scene(&hang)).expect("text");

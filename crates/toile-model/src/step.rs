@@ -9,13 +9,13 @@ use toile_scene::{Friction, Polish, Rule, Settings, VelocityModification, Wind};
 /// whips or slaps on a body and longer limits are slack.
 const LIMIT_PASSES: u32 = 2;
 
-/// Passes over single springs after all sweeps. In one, springs of the first colours get back part of what they lost from those that come
-/// after them.
+/// Passes over single springs after all sweeps: in one, springs of the first colours get back part of what they lost from those that come
+/// after them. There are as many again for each time that the longest limits double [`CELLS_OF_SMALL_CLOTH`].
 const GUARD_PASSES: u32 = 2;
 
-/// Cells along the longest limits from which on cloth is large: it has a fourth sweep and twice the guard, for where it whips or slaps on a
-/// body it becomes taut within a step over several cells.
-const CELLS_OF_LARGE_CLOTH: u32 = 64;
+/// Cells along the longest limits of cloth that the sweeps of its rule and [`GUARD_PASSES`] hold. Larger cloth has a sweep more: where it whips
+/// or slaps on a body it becomes taut within a step over several cells.
+const CELLS_OF_SMALL_CLOTH: u32 = 32;
 
 /// Twenty times the weight of the cloth: of cotton about 30 Pa, as if it were drawn with 3 N/m around a waist [m/s²].
 const PRESSING: f32 = 200.0;
@@ -72,7 +72,7 @@ impl StepSettings {
         let bound = model.step_wanted.unwrap_or(f64::INFINITY).min(settings.safety * stable_step(model));
         let steps_per_frame = (frame / bound - 1e-3).ceil().max(1.0);
         let VelocityModification { rule, sweeps, polish } = settings.velocity_modification;
-        let is_large = is_large(model);
+        let doublings = doublings(model);
         Self {
             dt: (frame / steps_per_frame) as f32,
             steps_per_frame: steps_per_frame as u32,
@@ -89,8 +89,8 @@ impl StepSettings {
             hold_rate: 10.0,
             hold_speed: 0.5,
             rule,
-            sweeps: sweeps.unwrap_or(rule.sweeps() + u32::from(is_large)),
-            guard_passes: if is_large { 2 * GUARD_PASSES } else { GUARD_PASSES },
+            sweeps: sweeps.unwrap_or(rule.sweeps() + doublings.min(1)),
+            guard_passes: GUARD_PASSES * (1 + doublings),
             polish,
             swept: settings.swept,
         }
@@ -131,8 +131,10 @@ impl StepSettings {
     }
 }
 
-fn is_large(model: &Model) -> bool {
-    model.strands.iter().any(|strand| strand.stride << (strand.level_count - 1) >= CELLS_OF_LARGE_CLOTH)
+/// How often the longest limits of a model double [`CELLS_OF_SMALL_CLOTH`].
+fn doublings(model: &Model) -> u32 {
+    let cells = model.strands.iter().map(|strand| strand.stride << (strand.level_count - 1)).max();
+    (cells.unwrap_or(0) / CELLS_OF_SMALL_CLOTH).max(1).ilog2()
 }
 
 /// Largest step [s] at which symplectic Euler is surely stable on this model's springs: 2/ω with Gershgorin's bound

@@ -149,17 +149,18 @@ fn a_ribbon_too_long_for_its_limits_has_strands_all_the_same() {
 }
 
 #[test]
-fn cloth_has_a_fourth_sweep_and_twice_the_guard_where_its_longest_limits_span_64_cells() {
+fn cloth_has_a_fourth_sweep_where_its_longest_limits_span_64_cells_and_more_guard_with_each_doubling() {
     let mut settings = hierarchical(0.01);
     let numbers = |settings: &Settings, model: &Model| {
         let step = StepSettings::new(settings, model);
         (step.sweeps, step.guard_passes)
     };
     for (stride, level_count, expected) in
-        [(1, 6, (3, 2)), (1, 7, (4, 4)), (2, 5, (3, 2)), (2, 6, (4, 4)), (2, 7, (4, 4))]
+        [(1, 1, (3, 2)), (1, 6, (3, 2)), (1, 7, (4, 4)), (1, 8, (4, 6)), (2, 5, (3, 2)), (2, 6, (4, 4)), (2, 8, (4, 8))]
     {
         let strand = Strand { particles: 0..100, stride, lengths: 0, level_count };
-        let model = Model { strands: vec![strand], ..Model::default() };
+        let shorter = Strand { stride: 1, level_count: 1, ..strand.clone() };
+        let model = Model { strands: vec![strand, shorter], ..Model::default() };
         settings.velocity_modification.sweeps = None;
         assert_eq!(numbers(&settings, &model), expected, "{level_count} levels of {stride}");
         settings.velocity_modification.sweeps = Some(2);

@@ -36,9 +36,7 @@ fn free_fall_error(model: &Model, settings: &StepSettings) -> f64 {
 #[test]
 fn a_relaxed_sheet_falls_freely_under_every_rule() {
     let model = Grid::horizontal(8, 0.02).model();
-    for rule in
-        [Rule::None, Rule::Zero, Rule::Average, Rule::Directional, Rule::Position, Rule::Predictive, Rule::Hierarchical]
-    {
+    for (_, rule) in Rule::ALL {
         let error = free_fall_error(&model, &StepSettings { rule, ..settings() });
         assert!(error < 1e-5, "{rule:?}: {error}");
     }
