@@ -10,8 +10,8 @@
 @group(0) @binding(5) var<storage, read> positions: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read_write> velocities: array<vec4<f32>>;
 
-// Few, because the strands of a garment are short: on a driver that runs on the CPU more lanes cost more than they do.
-const LANES: u32 = 8u;
+// Of a workgroup. What comes out is the same with any number of them.
+override LANES: u32 = 64u;
 const STRAND_PARTICLES: u32 = 512u;
 
 // Where the particles will be after the coming move, with their inverse masses; and how far the limits have moved them since.
@@ -94,7 +94,7 @@ fn hold_path(a: u32, quarter: u32, max_length: f32) {
     }
 }
 
-@compute @workgroup_size(8)
+@compute @workgroup_size(LANES)
 fn limit_strands(
     @builtin(local_invocation_index) lane: u32,
     @builtin(workgroup_id) group: vec3<u32>,

@@ -37,7 +37,7 @@ impl Program {
             compilation_options: wgpu::PipelineCompilationOptions {
                 // Kernels write the memory of a workgroup before they read it.
                 zero_initialize_workgroup_memory: false,
-                ..Default::default()
+                constants: constants(kernel, device.adapter_info().device_type),
             },
             cache: None,
         });
@@ -76,6 +76,15 @@ impl Program {
             layout: &self.layout,
             entries: &entries,
         })
+    }
+}
+
+/// What a kernel has otherwise than its WGSL says on a kind of device.
+fn constants(kernel: Kernel, device_type: wgpu::DeviceType) -> &'static [(&'static str, f64)] {
+    match (kernel, device_type) {
+        // A driver on the CPU runs the lanes of a workgroup one vector after the other, and changes between them at each barrier.
+        (Kernel::LimitStrands, wgpu::DeviceType::Cpu) => &[("LANES", 8.0)],
+        _ => &[],
     }
 }
 

@@ -1,14 +1,14 @@
 //! What a kernel's WGSL says of itself: bindings by global name, workgroup size, layouts of its structs.
 
 use crate::Kernel;
-use naga::{AddressSpace, ImageClass, StorageAccess, TypeInner};
+use naga::{AddressSpace, Expression, ImageClass, Literal, StorageAccess, TypeInner};
 
 /// What a kernel's WGSL says of itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interface {
     /// Name of the entry point.
     pub entry: String,
-    /// Invocations of one workgroup.
+    /// Invocations of one workgroup, where a pipeline overrides nothing.
     pub workgroup_size: [u32; 3],
     /// Resources of group 0, by ascending binding number.
     pub bindings: Vec<Binding>,
@@ -89,7 +89,7 @@ impl Interface {
             collect_structs(&module, global.ty, &mut structs);
         }
         bindings.sort_by_key(|b| b.number);
-        Self { entry: entry.name.clone(), workgroup_size: entry.workgroup_size, bindings, structs }
+        Self { entry: entry.name.clone(), workgroup_size: workgroup_size(&module, entry), bindings, structs }
     }
 
     /// The binding of a name.
@@ -106,6 +106,22 @@ fn parse(source: &str, name: &str) -> naga::Module {
         .validate(&module)
         .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(source)));
     module
+}
+
+fn workgroup_size(module: &naga::Module, entry: &naga::EntryPoint) -> [u32; 3] {
+    let mut size = entry.workgroup_size;
+    for (size, overridden) in size.iter_mut().zip(entry.workgroup_size_overrides.into_iter().flatten()) {
+        let value = overridden.map(|expression| match module.global_expressions[expression] {
+            Expression::Override(handle) => module.overrides[handle].init.map(|init| &module.global_expressions[init]),
+            _ => None,
+        });
+        match value {
+            None => {}
+            Some(Some(Expression::Literal(Literal::U32(default)))) => *size = *default,
+            Some(_) => panic!("the workgroup size of {} is an override without a plain default", entry.name),
+        }
+    }
+    size
 }
 
 fn resource(module: &naga::Module, global: &naga::GlobalVariable) -> Resource {

@@ -1,15 +1,13 @@
 //! Every kernel is valid WGSL under the limits of WebGPU, and says of itself what the table says.
 
-use toile_kernels::{Domain, Interface, Resource, TABLE, WORKGROUP_SIZE};
+use toile_kernels::{Interface, Resource, TABLE, WORKGROUP_SIZE};
 
 #[test]
 fn every_kernel_is_named_like_its_entry_point_and_fits_the_default_limits() {
     for row in TABLE {
         let interface = Interface::of(row.kernel);
         assert_eq!(interface.entry, row.kernel.name());
-        // A workgroup that works on one item may have any number of lanes.
-        let lanes = if row.domain == Domain::StrandColour { 8 } else { WORKGROUP_SIZE };
-        assert_eq!(interface.workgroup_size, [lanes, 1, 1], "{}", interface.entry);
+        assert_eq!(interface.workgroup_size, [WORKGROUP_SIZE, 1, 1], "{}", interface.entry);
         let storage = interface.bindings.iter().filter(|b| matches!(b.resource, Resource::Storage { .. })).count();
         assert!(storage <= 8, "{} binds {storage} storage buffers", interface.entry);
     }

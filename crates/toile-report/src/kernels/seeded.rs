@@ -5,7 +5,10 @@ use crate::shapes::{box_mesh, uv_sphere};
 use crate::{Gpu, Layers, Random};
 use glam::{DVec3, Vec3, Vec4, dvec3, vec3};
 use toile::gpu::{GpuError, Surface};
-use toile::model::{Attachment, Csr, Hold, Limit, Link, MapFrame, Model, NO_CORNER, SeamPair, StepSettings, Strand};
+use toile::model::{
+    Attachment, Csr, Hold, Limit, Link, MapFrame, Model, NO_CORNER, STRAND_PARTICLES_MAX, SeamPair, StepSettings,
+    Strand,
+};
 use toile::scene::{Displacement, Fabric, Friction, Influence, Mesh, Morphs, Polish, Pose, Settings, Skin, Wind};
 use toile_kernels::{Domain, Kernel, TABLE};
 use toile_reference::step::PolishState;
@@ -161,7 +164,7 @@ fn counts(domain: Domain, items: u32) -> Counts {
         Domain::LimitColour | Domain::SeamColour => {
             Counts { particles: 2 * items + 4, pairs: items, others: 2, ..none }
         }
-        Domain::StrandColour => Counts { particles: 8 * items + 200, others: 2, ..none },
+        Domain::StrandColour => Counts { particles: 8 * items + STRAND_PARTICLES_MAX, others: 2, ..none },
         Domain::Workgroup => Counts { partials: items, ..none },
         Domain::Vertex => Counts { particles: 1, ..none },
     }
@@ -270,8 +273,8 @@ fn links(random: &mut Random, particles: u32) -> Csr<Link> {
     }))
 }
 
-/// Disjoint strands of a few particles, and some of more than a workgroup has invocations, with others before and after the span of
-/// the colour.
+/// Disjoint strands of a few particles, and one along which a workgroup has more paths to hold at once than invocations, with others
+/// before and after the span of the colour.
 fn strands(
     random: &mut Random,
     particles: &Particles,
@@ -284,10 +287,10 @@ fn strands(
     }
     let order = random.shuffled(counts.particles);
     let mut taken = 0;
-    let count = counts.particles - 200;
+    let count = counts.particles - STRAND_PARTICLES_MAX;
     for k in 0..count / 8 + 2 * counts.others {
         let inside = (counts.others..counts.others + count / 8).contains(&k);
-        let wanted = if k == counts.others { 100 } else { 2 + random.below(6) };
+        let wanted = if k == counts.others { STRAND_PARTICLES_MAX } else { 2 + random.below(6) };
         let first = if inside { taken } else { 0 };
         taken += if inside { wanted } else { 0 };
         let start = line.len() as u32;
