@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3, Vec3, vec3};
 use toile::{MovingFrame, Outfit};
 use toile_gpu::MovingBody;
-use toile_model::{Model, StepSettings};
+use toile_model::{MapFrame, Model, StepSettings};
 use toile_reference::maps::{BodyMaps, Surface, render_maps_in, skin_body, vertex_velocities};
 use toile_reference::{Colliders, Reference};
 use toile_scene::{Cloth, Motion, MovingMesh, RigidKey, Rule, Scene, VelocityModification};
@@ -64,7 +64,7 @@ fn the_device_skins_the_walking_woman_bit_for_bit() {
 #[test]
 fn the_velocity_map_shows_how_a_turning_body_moves() {
     let ball = rolling_ball();
-    let frame = MovingFrame::new(&ball, 0.01, 0.0, false).at(0.2);
+    let frame = MovingFrame::new(&ball, 0.01, 0.0, false).expect("the body is finite").at(0.2);
     let mut body = MovingBody::new(&gpu().device, &ball).expect("it fits the device");
     gpu().run(|encoder| {
         body.record_pose(&gpu().device, encoder, 0.199);
@@ -94,7 +94,7 @@ fn whole_frames_on_a_moving_body_agree() {
     let (model, scene) = sheet("24");
     let settings = StepSettings::new(&scene.settings, &model);
     let (maps_per_frame, texel) = (2, 0.01);
-    let frames = MovingFrame::new(&ball, texel, settings.thickness, false);
+    let frames = MovingFrame::new(&ball, texel, settings.thickness, false).expect("the body is finite");
     let device = &gpu().device;
     let mut outfit = None;
     gpu().run(|encoder| {
@@ -136,7 +136,7 @@ fn whole_frames_on_a_moving_body_agree() {
 fn a_surface_between_two_poses_is_where_its_velocity_says() {
     let ball = rolling_ball();
     let interval = 1.0 / 60.0;
-    let frame = MovingFrame::new(&ball, 0.005, 0.0, false).at(0.3);
+    let frame = MovingFrame::new(&ball, 0.005, 0.0, false).expect("the body is finite").at(0.3);
     let [before, after] = [ball.at(0.3 - interval), ball.at(0.3)];
     let velocities = vertex_velocities(&before.positions, &after.positions, (1.0 / interval) as f32);
     let surface = Surface { mesh: &after, thickness: 0.0, velocities: Some(&velocities) };
@@ -193,7 +193,10 @@ fn passed(speed: f64, swept: bool) -> usize {
         time += interval;
         let velocities = vertex_velocities(&before.positions, &after.positions, (1.0 / interval) as f32);
         let surface = Surface { mesh: &after, thickness: settings.thickness, velocities: Some(&velocities) };
-        let maps = render_maps_in(&[surface], MovingFrame::new(&ball, 0.01, settings.thickness, false).at(time));
+        let maps = render_maps_in(
+            &[surface],
+            MovingFrame::new(&ball, 0.01, settings.thickness, false).expect("the body is finite").at(time),
+        );
         let colliders = Colliders { maps: Some(maps.clone()), sphere: None };
         let reference = reference.get_or_insert_with(|| Reference::new(&model, &settings, colliders));
         reference.set_maps(maps);
@@ -224,7 +227,7 @@ fn seen(kept: bool) -> Vec<BodyMaps> {
     let (model, scene) = sheet("12");
     let settings = StepSettings::new(&scene.settings, &model);
     let (device, interval) = (&gpu().device, 1.0 / 60.0);
-    let frames = MovingFrame::new(&woman, 0.02, settings.thickness, false);
+    let frames = MovingFrame::new(&woman, 0.02, settings.thickness, false).expect("the body is finite");
     let mut outfit = None;
     gpu().run(|encoder| {
         let mut made = Outfit::new(device, encoder, &woman, &[(&model, settings)], 0.02, 1).expect("it fits");
@@ -275,21 +278,33 @@ fn an_outer_garment_sees_the_inner_one_as_it_moves() {
     let model = sheet_model(&scene);
     let settings = StepSettings::new(&scene.settings, &model);
     let (device, interval) = (&gpu().device, 1.0 / 60.0);
-    let frames = MovingFrame::new(&ball, 0.01, settings.thickness, true);
+    let frames = MovingFrame::new(&ball, 0.01, settings.thickness, true).expect("the body is finite");
     let mut outfit = None;
     gpu().run(|encoder| {
         let garments = [(&model, settings.clone()), (&model, settings.clone())];
         outfit = Some(Outfit::new(device, encoder, &ball, &garments, 0.01, 1).expect("it fits"));
     });
     let mut outfit = outfit.expect("it was made");
-    (0..4).for_each(|_| gpu().run(|encoder| outfit.record(device, encoder, interval)));
-    let frame = frames.at(4.0 * interval);
-    let [inner, outer]: [BodyMaps; 2] = outfit
-        .maps()
-        .map(|maps| read_maps(gpu(), maps, frame).expect("the device answers"))
-        .collect::<Vec<_>>()
-        .try_into()
-        .expect("two garments");
+    let maps_at = |outfit: &Outfit, frame: MapFrame| -> [BodyMaps; 2] {
+        let read = outfit.maps().map(|maps| read_maps(gpu(), maps, frame).expect("the device answers"));
+        read.collect::<Vec<_>>().try_into().expect("two garments")
+    };
+    // From the first frame on: the inner sheet, its thickness out of its particles. Its outside looks at the ball.
+    gpu().run(|encoder| outfit.record(device, encoder, interval));
+    let frame = frames.at(interval);
+    let [inner, outer] = maps_at(&outfit, frame);
+    let sheet = (0..outer.depth[0].len()).filter(|i| inner.depth[0][*i] == 1.0 && outer.depth[0][*i] < 1.0);
+    let mut texels = 0;
+    for texel in sheet {
+        let z = frame.z_front - outer.depth[0][texel] * (frame.z_front - frame.z_back);
+        assert!((z - 0.3 + settings.thickness).abs() < 1e-4, "texel {texel}: the sheet is drawn at {z} m");
+        assert!(outer.normals[0][texel].distance(Vec3::Z) < 1e-3, "texel {texel}: {}", outer.normals[0][texel]);
+        texels += 1;
+    }
+    assert!(texels > 50, "{texels} texels");
+
+    (1..4).for_each(|_| gpu().run(|encoder| outfit.record(device, encoder, interval)));
+    let [inner, outer] = maps_at(&outfit, frames.at(4.0 * interval));
     let seen = |maps: &BodyMaps| maps.depth[0].iter().filter(|depth| **depth < 1.0).count();
     assert!(seen(&outer) > seen(&inner) + 50, "{} and {} texels", seen(&outer), seen(&inner));
     let layers = outer.velocities.as_ref().expect("a moving body");
@@ -299,4 +314,12 @@ fn an_outer_garment_sees_the_inner_one_as_it_moves() {
     let speeds: Vec<f32> = (0..layers[0].len()).filter(|texel| falling(*texel)).map(|i| layers[0][i].y).collect();
     let alike = speeds.iter().filter(|speed| (**speed - expected).abs() < 0.15).count();
     assert!(2 * alike > speeds.len(), "{alike} of {} texels fall at {expected} m/s", speeds.len());
+}
+
+#[test]
+fn a_body_that_leaves_every_place_is_refused() {
+    let key = |time: f64, x: f64| RigidKey { time, translation: DVec3::X * x, rotation: DQuat::IDENTITY };
+    let lost = MovingMesh::rigid(uv_sphere(Vec3::ZERO, 0.25, 8), vec![key(0.0, 0.0), key(0.5, 0.1), key(1.0, 1e39)]);
+    let error = MovingFrame::new(&lost, 0.01, 0.0, false).expect_err("it leaves");
+    assert!(error.to_string().starts_with("the body has no finite position at 0."), "{error}");
 }

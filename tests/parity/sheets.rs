@@ -1,9 +1,12 @@
 //! Sheets alone, under every rule, and on spheres: device and reference agree bit for bit over whole runs.
 
 use crate::life::Life;
+use toile::Simulation;
 use toile_model::StepSettings;
 use toile_scene::{Friction, Polish, Rule, VelocityModification, Wind};
-use toile_workspace::{Layers, finish_frame, first_difference, gpu, scene, sheet_model, sphere, uv_sphere, vec3_words};
+use toile_workspace::{
+    Layers, arrived, finish_frame, first_difference, gpu, scene, sheet_model, sphere, uv_sphere, vec3_words,
+};
 
 #[test]
 fn a_hanging_sheet_agrees_under_every_rule() {
@@ -103,7 +106,7 @@ fn whole_frames_of_a_simulation_agree() {
         let model = sheet_model(&scene);
         let settings = StepSettings::new(&scene.settings, &model);
         let colliders = toile::Colliders { maps: None, sphere: sphere(&scene) };
-        let mut simulation = toile::Simulation::new(&gpu().device, &model, &settings, colliders).expect("it fits");
+        let mut simulation = Simulation::new(&gpu().device, &model, &settings, colliders).expect("it fits");
         let colliders = toile_reference::Colliders { maps: None, sphere: sphere(&scene) };
         let mut reference = toile_reference::Reference::new(&model, &settings, colliders);
         for _ in 0..3 {
@@ -128,4 +131,22 @@ fn a_force_of_the_wrong_sign_is_seen_in_the_first_step() {
     gpu().run(|encoder| life.solver.record_steps(&gpu().device, encoder, 1));
     life.reference.step();
     assert!(life.difference().is_some_and(|fault| fault.starts_with("positions")));
+}
+
+/// A host drops an encoder when its window is gone; what it records later still tells its status.
+#[test]
+fn frames_that_are_never_submitted_take_no_status_away() {
+    let scene = scene("hang", &[("n", "8")]);
+    let model = sheet_model(&scene);
+    let settings = StepSettings::new(&scene.settings, &model);
+    let device = &gpu().device;
+    let mut simulation =
+        Simulation::new(device, &model, &settings, Default::default()).expect("the model fits the device");
+    for _ in 0..20 {
+        let mut encoder = device.create_command_encoder(&Default::default());
+        simulation.record(device, &mut encoder);
+    }
+    gpu().run(|encoder| simulation.record(device, encoder));
+    let status = arrived("the status of the frame", || simulation.status().expect("it is finite"));
+    assert_eq!(status.step, simulation.step());
 }

@@ -43,7 +43,11 @@ fn project(position: vec3<f32>, normal: vec3<f32>) -> vec4<f32> {
 fn facing(interpolated: vec3<f32>) -> vec4<f32> {
     var normal = interpolated;
     normal.z = select(-abs(normal.z), abs(normal.z), camera.side == FRONT);
-    return vec4<f32>(normal / length(normal), 0.0);
+    let normal_length = length(normal);
+    if normal_length > 0.0 {
+        return vec4<f32>(normal / normal_length, 0.0);
+    }
+    return vec4<f32>(0.0, 0.0, select(-1.0, 1.0, camera.side == FRONT), 0.0);
 }
 
 @vertex

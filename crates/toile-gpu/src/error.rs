@@ -8,7 +8,7 @@ use thiserror::Error;
 pub enum GpuError {
     /// A buffer is larger than the device binds.
     #[error(
-        "the buffer {name} needs {needed} bytes but this device binds at most {available}; use a larger spacing, or ask the \
+        "the buffer {name} needs {needed} bytes but this device binds at most {available}; make cloth or body coarser, or ask the \
          adapter for its own limits when the device is created"
     )]
     BufferTooLarge {

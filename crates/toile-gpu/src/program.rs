@@ -8,6 +8,7 @@ pub struct Program {
     interface: Interface,
     layout: wgpu::BindGroupLayout,
     pipeline: wgpu::ComputePipeline,
+    has_moving_uniform: bool,
 }
 
 /// Uniforms whose place in their buffer changes from dispatch to dispatch.
@@ -41,7 +42,8 @@ impl Program {
             },
             cache: None,
         });
-        Self { interface, layout, pipeline }
+        let has_moving_uniform = interface.bindings.iter().any(is_moving_uniform);
+        Self { interface, layout, pipeline, has_moving_uniform }
     }
 
     /// What the kernel binds.
@@ -56,7 +58,7 @@ impl Program {
 
     /// Whether the kernel takes a dynamic offset: it has a uniform that changes from dispatch to dispatch.
     pub fn has_moving_uniform(&self) -> bool {
-        self.interface.bindings.iter().any(|b| MOVING_UNIFORMS.contains(&b.name.as_str()))
+        self.has_moving_uniform
     }
 
     /// Binds resources by name.
@@ -79,6 +81,10 @@ impl Program {
     }
 }
 
+fn is_moving_uniform(binding: &Binding) -> bool {
+    MOVING_UNIFORMS.contains(&binding.name.as_str())
+}
+
 /// What a kernel has otherwise than its WGSL says on a kind of device.
 fn constants(kernel: Kernel, device_type: wgpu::DeviceType) -> &'static [(&'static str, f64)] {
     match (kernel, device_type) {
@@ -89,11 +95,8 @@ fn constants(kernel: Kernel, device_type: wgpu::DeviceType) -> &'static [(&'stat
 }
 
 fn layout_entry(binding: &Binding) -> wgpu::BindGroupLayoutEntry {
-    let buffer = |ty| wgpu::BindingType::Buffer {
-        ty,
-        has_dynamic_offset: MOVING_UNIFORMS.contains(&binding.name.as_str()),
-        min_binding_size: None,
-    };
+    let buffer =
+        |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: is_moving_uniform(binding), min_binding_size: None };
     let texture = |sample_type| wgpu::BindingType::Texture {
         sample_type,
         view_dimension: wgpu::TextureViewDimension::D2Array,

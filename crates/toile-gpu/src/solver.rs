@@ -108,9 +108,10 @@ impl Solver {
         self.record_sphere(device, encoder, count);
         self.record_lags(device, encoder, count);
         let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+        let mut last = None;
         for index in 0..count {
             for pass in &self.plan.step {
-                self.dispatch(&mut compute, pass, index);
+                self.dispatch(&mut compute, pass, index, &mut last);
             }
         }
         self.step += u64::from(count);
@@ -120,12 +121,22 @@ impl Solver {
     pub fn record_outputs(&mut self, encoder: &mut wgpu::CommandEncoder) {
         let status = self.buffers.get("status");
         encoder.clear_buffer(status, 0, None);
-        let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-        for pass in &self.plan.frame {
-            self.dispatch(&mut compute, pass, 0);
-        }
-        drop(compute);
+        self.record_of_frame(encoder, |_| true);
         self.status.record(encoder, status, self.buffers.find("polish_state"), self.step);
+    }
+
+    /// Records the normals of the present state alone: for maps that are drawn of a cloth within a frame.
+    pub fn record_normals(&self, encoder: &mut wgpu::CommandEncoder) {
+        self.record_of_frame(encoder, |kernel| kernel == Kernel::ParticleNormals);
+    }
+
+    /// Records passes of a frame.
+    fn record_of_frame(&self, encoder: &mut wgpu::CommandEncoder, wanted: impl Fn(Kernel) -> bool) {
+        let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+        let mut last = None;
+        for pass in self.plan.frame.iter().filter(|pass| wanted(pass.kernel)) {
+            self.dispatch(&mut compute, pass, 0, &mut last);
+        }
     }
 
     /// Does one step pass by pass and says what each kernel cost, beside a state copy: the unit in which costs are told. For
@@ -146,7 +157,8 @@ impl Solver {
         let mut times: BTreeMap<Kernel, PassTime> = BTreeMap::new();
         for pass in &self.plan.step {
             let time = times.entry(pass.kernel).or_default();
-            time.milliseconds += timer.milliseconds(device, queue, |compute| self.dispatch(compute, pass, 0))?;
+            time.milliseconds +=
+                timer.milliseconds(device, queue, |compute| self.dispatch(compute, pass, 0, &mut None))?;
             time.dispatches += 1;
         }
         let milliseconds = self.time_state_copy(device, queue, timer)?;
@@ -249,7 +261,8 @@ impl Solver {
         self.buffers.find("contacts")
     }
 
-    /// What each limit pulled with in the last step [N·s], f32 each, zeros up to a whole vec4; `None` unless the rule is predictive.
+    /// What each limit pulled with in the last step [N·s], f32 each, zeros up to a whole vec4; `None` unless the rule is
+    /// [`Rule::Predictive`](toile_scene::Rule::Predictive) or [`Rule::Hierarchical`](toile_scene::Rule::Hierarchical).
     pub fn limit_impulses(&self) -> Option<&wgpu::Buffer> {
         self.buffers.find("limit_impulses")
     }
@@ -279,9 +292,18 @@ impl Solver {
         self.buffers.sizes()
     }
 
-    fn dispatch(&self, compute: &mut wgpu::ComputePass<'_>, pass: &Pass, step_of_frame: u32) {
+    /// `last` is the kernel whose pipeline is set: most passes are further colours of the same one.
+    fn dispatch(
+        &self,
+        compute: &mut wgpu::ComputePass<'_>,
+        pass: &Pass,
+        step_of_frame: u32,
+        last: &mut Option<Kernel>,
+    ) {
         let bound = &self.programs[&pass.kernel];
-        compute.set_pipeline(bound.program.pipeline());
+        if last.replace(pass.kernel) != Some(pass.kernel) {
+            compute.set_pipeline(bound.program.pipeline());
+        }
         let entry = pass.span.unwrap_or(step_of_frame);
         if bound.program.has_moving_uniform() {
             compute.set_bind_group(0, &bound.group, &[entry * MOVING_UNIFORM_STRIDE as u32]);

@@ -20,6 +20,16 @@ struct Slot {
     step: u64,
 }
 
+/// The claim of a frame on its slot. The slot is free again when no status can come any more: the mapping failed, or the host dropped
+/// the encoder without submitting it.
+struct Claim(Arc<AtomicU8>);
+
+impl Drop for Claim {
+    fn drop(&mut self) {
+        let _ = self.0.compare_exchange(PENDING, FREE, Ordering::AcqRel, Ordering::Relaxed);
+    }
+}
+
 /// Reads the status of past frames without stalling.
 #[derive(Debug)]
 pub(crate) struct StatusReader {
@@ -60,9 +70,11 @@ impl StatusReader {
         if let Some(state) = polish_state {
             encoder.copy_buffer_to_buffer(state, 0, &slot.buffer, polish_place(), state.size());
         }
-        let state = slot.state.clone();
+        let claim = Claim(slot.state.clone());
         encoder.map_buffer_on_submit(&slot.buffer, wgpu::MapMode::Read, .., move |result| {
-            state.store(if result.is_ok() { READY } else { FREE }, Ordering::Release);
+            if result.is_ok() {
+                claim.0.store(READY, Ordering::Release);
+            }
         });
     }
 

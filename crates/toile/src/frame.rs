@@ -3,11 +3,11 @@
 /// What a renderer draws: buffers on the device that hold the state at the end of the last recorded frame.
 #[derive(Clone, Debug)]
 pub struct Frame {
-    /// Positions [m], vec4 each, xyz used; usage `VERTEX | STORAGE | COPY_SRC`.
+    /// Positions [m], vec4 each, xyz used, w the inverse mass [1/kg]; usage `VERTEX | STORAGE | COPY_SRC | COPY_DST`.
     pub positions: wgpu::Buffer,
-    /// Unit normals out of the cloth, vec4 each, xyz used; usage `VERTEX | STORAGE | COPY_SRC`.
+    /// Unit normals out of the cloth, vec4 each, xyz used; zero before the first frame. Usage `VERTEX | STORAGE | COPY_SRC | COPY_DST`.
     pub normals: wgpu::Buffer,
-    /// Particle indices (u32), three per triangle, counter-clockwise seen from outside; usage `INDEX`.
+    /// Particle indices (u32), three per triangle, counter-clockwise seen from outside; usage `INDEX | STORAGE | COPY_SRC`.
     pub indices: wgpu::Buffer,
     /// Number of particles.
     pub particle_count: u32,

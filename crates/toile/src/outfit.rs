@@ -28,10 +28,19 @@ pub struct MovingFrame {
 impl MovingFrame {
     /// The frames of a body with texels of the edge length `texel` [m], and `thickness` of cloth around it [m]; `layered` when
     /// garments show in the maps too.
-    pub fn new(body: &MovingMesh, texel: f32, thickness: f32, layered: bool) -> Self {
+    ///
+    /// # Errors
+    /// [`Error::Body`] when a position of the body is not finite at some time.
+    pub fn new(body: &MovingMesh, texel: f32, thickness: f32, layered: bool) -> Result<Self, Error> {
         let count = (body.duration() * BOUNDS_RATE).ceil() as u32 + 1;
-        let bounds_at = |index| body.at(f64::from(index) / BOUNDS_RATE).bounds().unwrap_or_default();
-        let bounds = (0..count).map(bounds_at).collect();
+        let bounds_at = |index| {
+            let time = f64::from(index) / BOUNDS_RATE;
+            let posed = body.at(time);
+            // Bounds alone do not tell: they pass over what is no number.
+            let finite = posed.positions.iter().all(|position| position.is_finite());
+            if finite { Ok(posed.bounds().unwrap_or_default()) } else { Err(Error::Body { time }) }
+        };
+        let bounds = (0..count).map(bounds_at).collect::<Result<_, _>>()?;
         let margin = thickness + BOUNDS_MARGIN + if layered { GARMENT_MARGIN } else { 0.0 };
         let mut frame = Self { bounds, round: body.is_closed().then(|| body.duration()), margin, texel, size: [0; 2] };
         let sizes = (0..count as usize).map(|index| {
@@ -40,7 +49,7 @@ impl MovingFrame {
         });
         let largest = sizes.fold(Vec3::ZERO, Vec3::max);
         frame.size = MapFrame::size_for(largest, texel);
-        frame
+        Ok(frame)
     }
 
     /// The frame at a time [s].
@@ -102,10 +111,10 @@ impl Outfit {
     /// frame, step and thickness. The maps are drawn `maps_per_frame` times in each frame.
     ///
     /// # Errors
-    /// [`Error::Gpu`] when body, maps or a garment do not fit the device.
+    /// [`Error::Gpu`] when body, maps or a garment do not fit the device, [`Error::Body`] when the body is not finite at some time.
     ///
     /// # Panics
-    /// When the steps of a frame are not a multiple of `maps_per_frame`.
+    /// When the steps of a frame are not a multiple of `maps_per_frame`, and as [`Simulation::new`].
     pub fn new(
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
@@ -115,7 +124,7 @@ impl Outfit {
         maps_per_frame: u32,
     ) -> Result<Self, Error> {
         let thickness = garments.iter().map(|(_, settings)| settings.thickness).fold(0.0, f32::max);
-        let frame = MovingFrame::new(body, texel, thickness, garments.len() > 1);
+        let frame = MovingFrame::new(body, texel, thickness, garments.len() > 1)?;
         let shown = frame.at(0.0);
         let mut moving = MovingBody::new(device, body)?;
         moving.record_pose(device, encoder, 0.0);
@@ -230,7 +239,9 @@ impl Outfit {
             }
             garment.simulation.record_steps(device, encoder, steps);
             if let Some(trail) = trail {
+                // The garment over this one sees it as it is now.
                 trail.record_arrival(device, encoder, interval);
+                garment.simulation.record_normals(encoder);
             }
         }
     }

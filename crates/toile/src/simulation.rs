@@ -65,7 +65,7 @@ impl Simulation {
         let indices = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("cloth indices"),
             contents: bytemuck::cast_slice(&triangles),
-            usage: wgpu::BufferUsages::INDEX | wgpu::BufferUsages::COPY_SRC,
+            usage: wgpu::BufferUsages::INDEX | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
         });
         let frame = Frame {
             positions: solver.positions().clone(),
@@ -77,7 +77,8 @@ impl Simulation {
         Ok(Self { solver, colliders, frame })
     }
 
-    /// Records one frame into the caller's encoder: its steps, then normals and status.
+    /// Records one frame into the caller's encoder: its steps, then normals and status. What is recorded counts as done, so an encoder that
+    /// is dropped loses its frame.
     pub fn record(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder) {
         self.solver.record_frame(device, encoder);
     }
@@ -102,6 +103,9 @@ impl Simulation {
 
     /// Records steps, at most as many as a frame has: for hosts whose bodies move within a frame. Maps of moving bodies show them
     /// at the end of these steps.
+    ///
+    /// # Panics
+    /// When `count` is larger than the steps of a frame.
     pub fn record_steps(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, count: u32) {
         self.solver.record_steps(device, encoder, count);
     }
@@ -111,7 +115,12 @@ impl Simulation {
         self.solver.record_outputs(encoder);
     }
 
-    /// Velocities [m/s] and masses [kg] of the particles, vec4 each; usage `STORAGE | COPY_SRC | COPY_DST`.
+    /// Records the normals of the present state alone: for hosts that draw the cloth within a frame.
+    pub fn record_normals(&self, encoder: &mut wgpu::CommandEncoder) {
+        self.solver.record_normals(encoder);
+    }
+
+    /// Velocities [m/s] and masses [kg] of the particles, vec4 each; usage `VERTEX | STORAGE | COPY_SRC | COPY_DST`.
     pub fn velocities(&self) -> &wgpu::Buffer {
         self.solver.velocities()
     }
