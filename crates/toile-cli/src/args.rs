@@ -8,7 +8,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::DVec3;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
-use toile::scene::Polish;
+use toile::scene::{Polish, Settings};
 
 /// Cloth simulation on the GPU: sews garments around bodies, drapes them, and says how well.
 #[derive(Debug, Parser)]
@@ -45,7 +45,7 @@ pub struct Outfit {
     #[arg(long, value_name = "FILE")]
     pub body: Option<PathBuf>,
     /// Unit of the body file.
-    #[arg(long, value_enum, default_value_t = Unit::M)]
+    #[arg(long, value_enum, default_value_t = Unit::M, requires = "body")]
     pub body_units: Unit,
     /// Clip of an animated body file.
     #[arg(long, value_name = "NAME")]
@@ -233,20 +233,14 @@ pub enum Backend {
     Reference,
 }
 
-/// Spacings that make cloth [m]: below, a dress has millions of particles; above, its panels have none inside.
-const SPACINGS: RangeInclusive<f64> = 0.001..=0.1;
-/// Texels that show a body [m].
-const TEXELS: RangeInclusive<f64> = 0.0005..=0.05;
-
 fn parse_spacing(text: &str) -> Result<f64, String> {
-    parse_length(text, SPACINGS)
+    parse_length(text, Settings::SPACINGS)
 }
 
 fn parse_texel(text: &str) -> Result<f64, String> {
-    parse_length(text, TEXELS)
+    parse_length(text, Settings::TEXELS)
 }
 
-/// A length such as 1cm, 5mm or 0.01m, in metres.
 fn parse_velocity(text: &str) -> Result<DVec3, String> {
     let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
     match numbers.as_deref() {
@@ -255,6 +249,7 @@ fn parse_velocity(text: &str) -> Result<DVec3, String> {
     }
 }
 
+/// A length such as 1cm, 5mm or 0.01m, in metres.
 fn parse_length(text: &str, allowed: RangeInclusive<f64>) -> Result<f64, String> {
     let split = text.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(text.len());
     let (number, unit) = text.split_at(split);
@@ -274,9 +269,10 @@ fn parse_time(text: &str) -> Result<f64, String> {
 }
 
 fn parse_rate(text: &str) -> Result<f64, String> {
+    let rates = Settings::FRAME_RATES;
     match text.parse::<f64>() {
-        Ok(value) if (1.0..=1000.0).contains(&value) => Ok(value),
-        _ => Err("it must be 1 to 1000 frames per second".to_owned()),
+        Ok(value) if rates.contains(&value) => Ok(value),
+        _ => Err(format!("it must be {} to {} frames per second", rates.start(), rates.end())),
     }
 }
 
@@ -369,6 +365,7 @@ mod tests {
                 said(&["toile", "dress", "--spacing", "0"]),
                 said(&["toile", "dress", "--spacing", "10m"]),
                 said(&["toile", "dress", "--texel", "big"]),
+                said(&["toile", "dress", "--body-units", "cm"]),
                 said(&["toile", "dress", "--backend", "cuda"]),
                 said(&["toile", "dress", "--jsn"]),
                 said(&["toile", "run"]),
@@ -382,6 +379,7 @@ mod tests {
         invalid value '0' for '--spacing <LENGTH>': it must be 1 mm to 100 mm
         invalid value '10m' for '--spacing <LENGTH>': it must be 1 mm to 100 mm
         invalid value 'big' for '--texel <LENGTH>': it is not a length; write 1cm, 5mm or 0.01m
+        the following required arguments were not provided: --body <FILE>
         invalid value 'cuda' for '--backend <BACKEND>' [possible values: gpu, reference]
         unexpected argument '--jsn' found; tip: a similar argument exists: '--json'
         the following required arguments were not provided: <SCENE>

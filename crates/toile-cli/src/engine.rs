@@ -2,7 +2,7 @@
 
 use crate::adapter::Gpu;
 use crate::interrupt;
-use anyhow::Result;
+use anyhow::{Context, Result};
 use glam::Vec3;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -45,7 +45,7 @@ pub enum Engine<'a> {
     Reference(Box<Reference>),
 }
 
-/// Positions, velocities and contacts at the end.
+/// Positions, normals and contacts at the end.
 pub struct State {
     /// Positions [m], shape [particle_count].
     pub positions: Vec<Vec3>,
@@ -96,6 +96,12 @@ impl Computer {
     }
 }
 
+/// The status of a cloth at the end of the frame that was waited for. One of an earlier frame, or none, would look like a calm cloth.
+pub fn status(simulation: &mut Simulation) -> Result<Status> {
+    let status = simulation.status()?.filter(|status| status.step == simulation.step());
+    status.context("the device gave no status of the last frame: it may be lost")
+}
+
 fn draw_maps(gpu: &Gpu, layers: &[Layer], texel: f32) -> Result<BodyMaps> {
     let bounds = layers
         .iter()
@@ -122,7 +128,7 @@ impl Engine<'_> {
                 simulation.record(&gpu.device, &mut encoder);
                 gpu.queue.submit([encoder.finish()]);
                 gpu.device.poll(wgpu::PollType::wait_indefinitely())?;
-                Ok(simulation.status()?.unwrap_or_default())
+                status(simulation)
             }
             Engine::Reference(reference) => {
                 reference.frame();

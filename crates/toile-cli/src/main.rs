@@ -13,6 +13,7 @@ mod picture;
 mod progress;
 mod simulate;
 mod sphere_mesh;
+mod steps;
 mod walk;
 mod worn;
 

@@ -3,7 +3,7 @@
 mod contact;
 mod measures;
 
-pub use contact::Surfaces;
+pub use contact::{Surfaces, is_far, reach};
 pub use measures::{Measures, max_and_p99};
 
 use serde::Serialize;

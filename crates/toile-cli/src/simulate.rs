@@ -17,13 +17,8 @@ use toile::scene::{Body, Cloth, Scene, Sphere};
 pub fn simulate(file: &SceneFile, running: &Running) -> Result<()> {
     let scene = &file.scene;
     output::check(&running.out)?;
+    check_bodies(scene)?;
     let sphere = sphere(scene)?;
-    if scene.bodies.iter().any(|body| matches!(body, Body::Moving(_))) {
-        bail!(
-            "scene {} has a mesh that moves: toile walk goes along with one, toile run knows meshes at rest",
-            scene.name
-        );
-    }
     if !running.quiet {
         for warning in &file.warnings {
             eprintln!("warning: {warning}");
@@ -70,6 +65,17 @@ pub fn simulate(file: &SceneFile, running: &Running) -> Result<()> {
             print(&cloth.line())?;
         }
         print(&format!("wrote {}", running.out.display()))?;
+    }
+    Ok(())
+}
+
+/// An error when a scene has bodies that a run does not know.
+pub fn check_bodies(scene: &Scene) -> Result<()> {
+    if scene.bodies.iter().any(|body| matches!(body, Body::Moving(_))) {
+        bail!(
+            "scene {} has a mesh that moves: toile walk goes along with one, toile run knows meshes at rest",
+            scene.name
+        );
     }
     Ok(())
 }

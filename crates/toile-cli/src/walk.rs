@@ -9,10 +9,11 @@ mod stage;
 use crate::adapter::{self, Gpu};
 use crate::args::{Backend, Running};
 use crate::commands::print;
-use crate::engine::{Computer, Layer};
+use crate::engine::{Computer, Layer, status};
 use crate::interrupt;
 use crate::output;
 use crate::picture::{self, Drawn, Material, View};
+use crate::steps::step_settings;
 use crate::worn::{self, Surroundings};
 use anyhow::{Context, Result, bail};
 use glam::Vec3;
@@ -22,6 +23,8 @@ use regions::Regions;
 use rows::{FrameRow, WalkMetrics};
 use saved::{GarmentState, Saved};
 use stage::Stage;
+use std::fmt::Write;
+use std::hash::{DefaultHasher, Hasher};
 use std::path::Path;
 use std::time::Instant;
 use toile::Outfit;
@@ -39,6 +42,8 @@ const WAITING_SECONDS: f64 = 0.5;
 const STRIP_COUNT: u32 = 6;
 /// Height of the pictures [px].
 const PICTURE_HEIGHT: u32 = 480;
+/// What ctrl-c leaves of a walk that has begun.
+const KEPT: &str = "interrupted: every frame so far is kept, go on with --resume";
 
 /// What walks.
 pub struct Walk {
@@ -56,8 +61,33 @@ pub struct Walk {
     pub precompute_maps: bool,
     /// Whether to go on where an interrupted walk ended.
     pub resume: bool,
+}
+
+impl Walk {
     /// All that decides the result, as text: a walk goes on only with the same.
-    pub identity: String,
+    fn identity(&self, gpu: &Gpu) -> String {
+        let mut digest = Digest(DefaultHasher::new());
+        write!(digest, "{:?}", (&self.body, &self.dressing, &self.garments)).expect("a digest takes every text");
+        format!(
+            "toile {} on {}\n{:?}\n{} frames, maps kept: {}\nbody and garments {:016x}\n",
+            env!("CARGO_PKG_VERSION"),
+            gpu.name,
+            self.settings,
+            self.frame_count,
+            self.precompute_maps,
+            digest.0.finish(),
+        )
+    }
+}
+
+/// A text as one number.
+struct Digest(DefaultHasher);
+
+impl std::fmt::Write for Digest {
+    fn write_str(&mut self, text: &str) -> std::fmt::Result {
+        self.0.write(text.as_bytes());
+        Ok(())
+    }
 }
 
 /// A garment that is dressed and goes along.
@@ -76,7 +106,7 @@ pub fn walk(walk: &Walk, running: &Running) -> Result<()> {
     }
     let computer = Computer::Gpu(adapter::open(&running.place)?);
     let Computer::Gpu(gpu) = &computer else { unreachable!("it was just opened") };
-    let saved = Saved::open(&running.out, &walk.identity, walk.resume)?;
+    let saved = Saved::open(&running.out, walk.identity(gpu), walk.resume)?;
     let walkers = walk.garments.iter().map(|garment| walker(garment, &walk.settings)).collect::<Result<Vec<_>>>()?;
     if saved.frame_count() == 0 {
         let mut states = dress(walk, &computer, running.quiet)?;
@@ -103,7 +133,7 @@ pub fn walk(walk: &Walk, running: &Running) -> Result<()> {
 
 fn walker(garment: &Garment, settings: &Settings) -> Result<Walker> {
     let (model, _) = Model::from_garment(garment, settings)?.sewn();
-    let settings = StepSettings::new(settings, &model);
+    let settings = step_settings(&garment.name, settings, &model)?;
     Ok(Walker { name: garment.name.clone(), triangles: model.triangles(), model, settings })
 }
 
@@ -148,7 +178,7 @@ fn go_to_start(
         interrupt::check()?;
         timed(gpu, |encoder| outfit.record(&gpu.device, encoder, seconds))?;
         for simulation in outfit.garments_mut() {
-            simulation.status()?;
+            status(simulation)?;
         }
     }
     outfit.garments().map(|simulation| GarmentState::download(gpu, simulation)).collect()
@@ -190,7 +220,7 @@ fn simulate(walk: &Walk, gpu: &Gpu, walkers: &[Walker], saved: &Saved, running: 
     let progress = progress(walk.frame_count, done, running.quiet);
     let mut last = vec![Status::default(); walkers.len()];
     for frame in done + 1..=walk.frame_count {
-        interrupt::check().context("interrupted: every frame so far is kept, go on with --resume")?;
+        interrupt::check().context(KEPT)?;
         let start = Instant::now();
         let time = f64::from(frame - 1) * seconds;
         let interval = seconds / f64::from(maps_per_frame);
@@ -207,17 +237,22 @@ fn simulate(walk: &Walk, gpu: &Gpu, walkers: &[Walker], saved: &Saved, running: 
         let mut states = Vec::new();
         let body = walk.body.at(f64::from(frame) * seconds);
         let exact = ExactDistance::new(&body);
-        let mut cloths = Vec::new();
+        let (mut cloths, mut inner) = (Vec::new(), Vec::new());
         for ((simulation, walker), last) in outfit.garments_mut().zip(walkers).zip(&mut last) {
-            let status = simulation.status()?.unwrap_or_default();
+            let status = status(simulation)?;
             row.add_polish(last, &status);
             *last = status;
             let state = GarmentState::download(gpu, simulation)?;
             let normals = readback::read_vec4s(&gpu.device, &gpu.queue, &simulation.frame().normals)?;
-            row.add(&walker.model, &state, &status, &exact, &body, &regions, walk.settings.fabric.thickness, texel);
+            let thickness = walk.settings.fabric.thickness;
+            row.add(&walker.model, &state, &status, &exact, &inner, &body, &regions, thickness, texel);
             let normals: Vec<Vec3> = normals.into_iter().map(|normal| normal.truncate()).collect();
-            cloths.push(Mesh { positions: state.positions(), normals, triangles: walker.triangles.clone() });
+            let mesh = Mesh { positions: state.positions(), normals, triangles: walker.triangles.clone() };
             states.push(state);
+            if states.len() < walkers.len() {
+                inner.push(ExactDistance::new(&mesh));
+            }
+            cloths.push(mesh);
         }
         let views = draw(&body, &cloths, walk.settings.fabric.thickness, stage.at(f64::from(frame) * seconds))?;
         picture::save_png(&picture_path(&running.out, frame), &picture::strip(&views))?;
@@ -237,7 +272,11 @@ fn collision_part(gpu: &Gpu, outfit: &mut Outfit) -> Result<f64> {
         for (kernel, time) in simulation.time_step(&gpu.device, &gpu.queue, &timer)? {
             match kernel {
                 Kernel::StateCopy => continue,
-                Kernel::Reaction | Kernel::QuadMidpoints | Kernel::SampleMovingMaps | Kernel::Collide => {
+                Kernel::Reaction
+                | Kernel::QuadMidpoints
+                | Kernel::SampleMovingMaps
+                | Kernel::Collide
+                | Kernel::KeepOut => {
                     collision += time.milliseconds;
                 }
                 _ => {}
@@ -322,11 +361,14 @@ fn finish(walk: &Walk, walkers: &[Walker], saved: &Saved, running: &Running) -> 
             colour: Material::cloth(i).linear_outside(),
         })
         .collect();
-    let points = |mesh: usize, frame: usize| saved.positions(frame as u32, mesh);
+    let points = |mesh: usize, frame: usize| -> Result<Vec<Vec3>> {
+        interrupt::check().context(KEPT)?;
+        saved.positions(frame as u32, mesh)
+    };
     write_usda(&running.out.join("walk.usda"), &faces, count, rate, points)?;
     for (index, walker) in walkers.iter().enumerate() {
         let path = running.out.join(format!("{index}_{}.pc2", walker.name));
-        write_pc2(&path, walker.model.positions.len(), count, |frame| saved.positions(frame as u32, index))?;
+        write_pc2(&path, walker.model.positions.len(), count, |frame| points(index, frame))?;
     }
     draw_strip(walk, walkers, saved, &running.out)?;
     let frames = (1..=walk.frame_count).map(|frame| picture_path(&running.out, frame));

@@ -2,6 +2,7 @@
 
 use crate::engine::{Computer, Engine, Layer, State};
 use crate::progress::Progress;
+use crate::steps::step_settings;
 use anyhow::{Context, Result, anyhow};
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -79,7 +80,7 @@ impl Log {
 /// Sews a garment around what it finds, and drapes it until it is at rest.
 pub fn dress(garment: &Garment, settings: &Settings, around: &Surroundings<'_>) -> Result<Worn> {
     let open = Model::from_garment(garment, settings)?;
-    let open_settings = StepSettings::new(settings, &open).sewing();
+    let open_settings = step_settings(&garment.name, settings, &open)?.sewing();
     let mut engine =
         around.computer.start(&open, &open_settings, around.layers, around.sphere.clone(), around.texel)?;
     let mut dressing = Dressing::new(&open, &open_settings);
@@ -93,7 +94,7 @@ pub fn dress(garment: &Garment, settings: &Settings, around: &Surroundings<'_>) 
         }
     }
     let (sewn, merge) = open.sewn();
-    let step = StepSettings::new(settings, &sewn);
+    let step = step_settings(&garment.name, settings, &sewn)?;
     engine = engine.sewn(&sewn, &merge, &step.easing())?;
     while dressing.stage() == Stage::Easing {
         let status = log.frame(&mut engine, &step.easing())?;
@@ -119,7 +120,7 @@ pub fn dress(garment: &Garment, settings: &Settings, around: &Surroundings<'_>) 
 
 /// Runs a cloth without seams for a number of frames.
 pub fn run(name: &str, model: Model, frames: u32, settings: &Settings, around: &Surroundings<'_>) -> Result<Worn> {
-    let settings = StepSettings::new(settings, &model);
+    let settings = step_settings(name, settings, &model)?;
     let mut engine = around.computer.start(&model, &settings, around.layers, around.sphere.clone(), around.texel)?;
     let mut log = Log::default();
     let mut status = Status::default();

@@ -1,6 +1,6 @@
 //! Bodies from OBJ, PLY, glTF and GLB files.
 
-use crate::error::{Fault, FileError, Found};
+use crate::error::{Fault, FileError, Found, Place};
 use crate::gltf_rig::ClipChoice;
 use crate::{gltf_body, obj, ply, source};
 use std::path::Path;
@@ -8,6 +8,9 @@ use toile_scene::Mesh;
 
 /// Heights [m] that a body can have. Outside, the unit is wrong rather than the person.
 pub(crate) const HEIGHTS: [f64; 2] = [0.2, 4.0];
+
+/// Largest extent of a body to the sides [m]. Wider, something lies far from it, and its maps would be mostly empty.
+pub(crate) const WIDTH_MAX: f64 = 10.0;
 
 /// The endings that [`read_body`] knows.
 const ENDINGS: &str = ".obj, .ply, .gltf, .glb";
@@ -45,8 +48,13 @@ pub struct BodyFile {
 /// # Errors
 ///
 /// [`FileError`] when the file cannot be read, breaks its format, has no triangle, has a coordinate that is not finite or
-/// an index without a vertex, lacks the named clip, or is no body's size (0.2 m to 4 m tall). Holes, noise, non-manifold
-/// edges, repeated or empty triangles and stray vertices are no errors but warnings.
+/// an index without a vertex, lacks the named clip, or is no body's size (0.2 m to 4 m tall, at most 10 m to the sides). A
+/// clip or a time is an error where the format or the file has none to choose. Holes, non-manifold edges, repeated or empty triangles and stray
+/// vertices are no errors but warnings.
+///
+/// # Panics
+///
+/// When `metres_per_unit` is not positive.
 pub fn read_body(path: &Path, options: &BodyOptions) -> Result<BodyFile, FileError> {
     let bytes = source::read_bytes(path)?;
     read(&bytes, path, path.parent(), options).map_err(|found| found.in_file(path))
@@ -63,9 +71,15 @@ pub fn parse_body(bytes: &[u8], name: &str, options: &BodyOptions) -> Result<Bod
 
 fn read(bytes: &[u8], name: &Path, folder: Option<&Path>, options: &BodyOptions) -> Result<BodyFile, Found> {
     assert!(options.metres_per_unit > 0.0, "the length of a unit is positive");
+    if options.clip.is_none() && options.time != 0.0 {
+        return Err(Found::malformed(Place::File, "a time is one in a clip: name the clip, or leave the time out"));
+    }
     let ending = name.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
     let mut warnings = Vec::new();
     let soup = match ending.to_ascii_lowercase().as_str() {
+        "obj" | "ply" if options.clip.is_some() => {
+            return Err(Found::malformed(Place::File, "files of its kind have no clips: leave the clip out"));
+        }
         "obj" => obj::read(bytes)?,
         "ply" => ply::read(bytes)?,
         "gltf" | "glb" => {
@@ -82,22 +96,27 @@ fn read(bytes: &[u8], name: &Path, folder: Option<&Path>, options: &BodyOptions)
 /// Refuses a body that is no person's size.
 pub(crate) fn check_height(mesh: &Mesh, metres_per_unit: f64) -> Result<(), Found> {
     let [low, high] = mesh.bounds().expect("a clean mesh has vertices");
-    let height = f64::from(high.y) - f64::from(low.y);
+    let size = high.as_dvec3() - low.as_dvec3();
+    let height = size.y;
     let plausible = |height: f64| (HEIGHTS[0]..=HEIGHTS[1]).contains(&height);
     if plausible(height) {
+        let width = size.x.max(size.z);
+        if width > WIDTH_MAX {
+            return Err(Fault::BodyWidth { width: rounded(width) }.into());
+        }
         return Ok(());
     }
     let typical = 1.7;
-    let unit = [("mm", 0.001), ("cm", 0.01), ("m", 1.0)]
+    let unit = [("mm", 0.001), ("cm", 0.01), ("dm", 0.1), ("m", 1.0), ("in", 0.0254)]
         .map(|(unit, metres)| (unit, height / metres_per_unit * metres))
         .into_iter()
         .filter(|(_, height)| plausible(*height))
         .min_by(|a, b| (a.1 / typical).ln().abs().total_cmp(&(b.1 / typical).ln().abs()));
     let advice = match unit {
         Some((unit, height)) => {
-            format!("give --body-units {unit} if it should be {} m", rounded(height))
+            format!("give {unit} as its unit if it should be {} m", rounded(height))
         }
-        None => "none of --body-units mm, cm or m makes it a body's size".into(),
+        None => "no unit from mm to m makes it a body's size".into(),
     };
     Err(Fault::BodyUnits { height: rounded(height), advice }.into())
 }

@@ -15,13 +15,6 @@ pub struct FileError {
     pub fault: Box<Fault>,
 }
 
-impl FileError {
-    /// A file that was written by this program and cannot be read any more.
-    pub fn unreadable(path: &std::path::Path) -> Self {
-        Found::from(Fault::Unreadable(std::io::Error::from(std::io::ErrorKind::InvalidData))).in_file(path)
-    }
-}
-
 /// A place in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Place {
@@ -122,6 +115,15 @@ pub enum Fault {
         height: String,
         /// What to do.
         advice: String,
+    },
+    /// A body with something far from it.
+    #[error(
+        "the body is {width} m wide, and bodies are at most {} m to the sides: remove what lies far from it",
+        crate::body::WIDTH_MAX
+    )]
+    BodyWidth {
+        /// Larger extent to the sides [m], rounded for reading.
+        width: String,
     },
     /// A panel that is no size of a garment in the declared unit.
     #[error(

@@ -1,6 +1,7 @@
 //! Fabrics from TOML.
 
 use crate::error::{Fault, FileError, Found, Place};
+use crate::scene::{within, wrong};
 use crate::scene_toml::{FabricTable, FabricToml, ThresholdTable, ThresholdToml};
 use crate::{source, toml_text};
 use std::ops::RangeInclusive;
@@ -9,6 +10,9 @@ use toile_scene::{Fabric, Threshold};
 
 /// Smallest and largest threshold of a fabric [1]. D §4.3 has 1 % to 15 %.
 const THRESHOLD_RANGE: RangeInclusive<f64> = 0.001..=0.15;
+
+/// Stiffest springs of a fabric [N/m].
+const STIFFNESS_MAX: f64 = 1e6;
 
 /// How many files may name each other as base before it is a circle.
 const DEEPEST_BASE: usize = 8;
@@ -61,65 +65,73 @@ impl From<FileError> for Problem {
 /// The fabric of a scene; files lie relative to the folder.
 pub(crate) fn convert(toml: FabricToml, folder: &Path) -> Result<Fabric, Problem> {
     match toml {
-        FabricToml::Named(name) => named(&name, folder, DEEPEST_BASE),
+        FabricToml::Named(name) => named(&name, "fabric", folder, DEEPEST_BASE),
         FabricToml::Table(value) => {
-            let table = value
-                .try_into::<FabricTable>()
-                .map_err(|error| Found::malformed(Place::Key("fabric".into()), error.message().to_string()))?;
+            let table = value.try_into::<FabricTable>().map_err(|error| wrong("fabric", error.message()))?;
             fill(table, folder, "fabric", "fabric.", DEEPEST_BASE)
         }
     }
 }
 
-fn named(name: &str, folder: &Path, depth: usize) -> Result<Fabric, Problem> {
+/// The fabric that the key names.
+fn named(name: &str, key: &str, folder: &Path, depth: usize) -> Result<Fabric, Problem> {
     if let Some(fabric) = Fabric::preset(name) {
         return Ok(fabric);
     }
     if !name.ends_with(".toml") {
         let known = Fabric::PRESETS.map(String::from).to_vec();
         let fault = Fault::Unknown { what: "fabric", name: name.into(), known };
-        return Err(Found::at(Place::Key("fabric".into()), fault).into());
+        return Err(Found::at(Place::Key(key.into()), fault).into());
     }
     if depth == 0 {
         let message = format!("the base \"{name}\" leads in a circle");
-        return Err(Found::malformed(Place::Key("base".into()), message).into());
+        return Err(wrong(key, message).into());
     }
     Ok(read_file(&folder.join(name), depth - 1)?)
 }
 
 /// `name` is the fabric's if the table gives none; `prefix` stands before the keys in errors.
 fn fill(table: FabricTable, folder: &Path, name: &str, prefix: &str, depth: usize) -> Result<Fabric, Problem> {
-    let base = table.base.as_deref().map(|base| named(base, folder, depth)).transpose()?;
+    let base = table.base.as_deref().map(|base| named(base, &format!("{prefix}base"), folder, depth)).transpose()?;
     let base = base.as_ref();
-    let given = |key: &str, own: Option<f64>, inherited: fn(&Fabric) -> f64, zero_allowed: bool| {
-        let place = || Place::Key(format!("{prefix}{key}"));
-        let Some(value) = own.or(base.map(inherited)) else {
-            return Err(Found::malformed(place(), "it is missing; give it, or a base such as \"cotton\""));
-        };
-        if value.is_finite() && (value > 0.0 || (zero_allowed && value == 0.0)) {
-            return Ok(value);
+    let given = |key: &str, own: Option<f64>, inherited: fn(&Fabric) -> f64, [least, most]: [f64; 2], unit: &str| {
+        let key = format!("{prefix}{key}");
+        match own.or(base.map(inherited)) {
+            Some(value) => within(&key, value, least..=most, unit),
+            None => Err(wrong(&key, "it is missing; give it, or a base such as \"cotton\"")),
         }
-        let least = if zero_allowed { "0 or more" } else { "above 0" };
-        Err(Found::malformed(place(), format!("it is {value} and must be {least}")))
     };
     let inherited_name = base.map_or(name, |base| base.name.as_str());
     // Without a base, and without a word on it, bending is left to the bend springs.
     let bending_rigidity = table.bending_rigidity.or(base.is_none().then_some(0.0));
     Ok(Fabric {
         name: table.name.unwrap_or_else(|| inherited_name.into()),
-        areal_density: given("areal_density", table.areal_density, |f| f.areal_density, false)?,
+        areal_density: given("areal_density", table.areal_density, |f| f.areal_density, [1e-3, 10.0], "kg/m²")?,
         structural_stiffness: given(
             "structural_stiffness",
             table.structural_stiffness,
             |f| f.structural_stiffness,
-            false,
+            [1e-3, STIFFNESS_MAX],
+            "N/m",
         )?,
-        shear_stiffness: given("shear_stiffness", table.shear_stiffness, |f| f.shear_stiffness, true)?,
-        bend_stiffness: given("bend_stiffness", table.bend_stiffness, |f| f.bend_stiffness, true)?,
-        bending_rigidity: given("bending_rigidity", bending_rigidity, |f| f.bending_rigidity, true)?,
-        damping: given("damping", table.damping, |f| f.damping, true)?,
-        thickness: given("thickness", table.thickness, |f| f.thickness, true)?,
-        friction: given("friction", table.friction, |f| f.friction, true)?,
+        shear_stiffness: given(
+            "shear_stiffness",
+            table.shear_stiffness,
+            |f| f.shear_stiffness,
+            [0.0, STIFFNESS_MAX],
+            "N/m",
+        )?,
+        bend_stiffness: given(
+            "bend_stiffness",
+            table.bend_stiffness,
+            |f| f.bend_stiffness,
+            [0.0, STIFFNESS_MAX],
+            "N/m",
+        )?,
+        bending_rigidity: given("bending_rigidity", bending_rigidity, |f| f.bending_rigidity, [0.0, 1.0], "N·m")?,
+        damping: given("damping", table.damping, |f| f.damping, [0.0, 1e3], "1/s")?,
+        thickness: given("thickness", table.thickness, |f| f.thickness, [0.0, 0.05], "m")?,
+        friction: given("friction", table.friction, |f| f.friction, [0.0, 10.0], "")?,
         threshold: threshold(table.threshold, base.map(|f| f.threshold), &format!("{prefix}threshold"))?,
     })
 }

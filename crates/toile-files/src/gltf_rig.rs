@@ -9,6 +9,9 @@ use std::collections::HashMap;
 use std::ops::Range;
 use toile_scene::{Channel, Clip, Interpolation, Joint, Keys, LocalTransform, Rig, RigNode};
 
+/// Longest motion [s]: its whole way is gone along before the first frame.
+pub(crate) const DURATION_MAX: f64 = 3600.0;
+
 /// No clip has more numbers: channels can share accessors, so a small file can ask for any amount.
 const MOST_NUMBERS: usize = 1 << 24;
 
@@ -128,6 +131,13 @@ impl Skeleton {
             self.add_channel(&mut reader, &channel, &mut clip.channels)?;
         }
         clip.duration = reader.duration;
+        if clip.duration > DURATION_MAX {
+            let message = format!(
+                "the clip \"{}\" is {} s long, and clips are at most {DURATION_MAX} s: cut it",
+                clip.name, clip.duration
+            );
+            return Err(Found::malformed(Place::File, message));
+        }
         Ok(Some(clip))
     }
 

@@ -22,14 +22,18 @@ pub struct MovingFaces<'a> {
 ///
 /// # Errors
 ///
-/// [`FileError`] when a position is not finite, or the operating system refuses; then no file is left behind.
-pub fn write_usda(
+/// That of `points`, and [`FileError`] when a position is not finite, or the operating system refuses; then no file is left behind.
+///
+/// # Panics
+///
+/// When a triangle has a vertex beyond the positions.
+pub fn write_usda<E: From<FileError>>(
     path: &Path,
     meshes: &[MovingFaces<'_>],
     frame_count: usize,
     frame_rate: f64,
-    points: impl FnMut(usize, usize) -> Result<Vec<Vec3>, FileError>,
-) -> Result<(), FileError> {
+    points: impl FnMut(usize, usize) -> Result<Vec<Vec3>, E>,
+) -> Result<(), E> {
     write_streamed(path, |out| usda(out, meshes, frame_count, frame_rate, points))
 }
 
@@ -39,12 +43,16 @@ pub fn write_usda(
 /// # Errors
 ///
 /// As [`write_usda`].
-pub fn write_pc2(
+///
+/// # Panics
+///
+/// When a frame has another number of positions.
+pub fn write_pc2<E: From<FileError>>(
     path: &Path,
     point_count: usize,
     frame_count: usize,
-    mut points: impl FnMut(usize) -> Result<Vec<Vec3>, FileError>,
-) -> Result<(), FileError> {
+    mut points: impl FnMut(usize) -> Result<Vec<Vec3>, E>,
+) -> Result<(), E> {
     write_streamed(path, |out| {
         let mut header = b"POINTCACHE2\0".to_vec();
         header.extend(1i32.to_le_bytes());
@@ -55,7 +63,7 @@ pub fn write_pc2(
         header.extend((frame_count as i32).to_le_bytes());
         out.write_all(&header).map_err(Failure::Io)?;
         for frame in 0..frame_count {
-            let points = points(frame).map_err(Failure::File)?;
+            let points = points(frame).map_err(Failure::Caller)?;
             check(&points, point_count, "the point cache", frame)?;
             let bytes: Vec<u8> = points.iter().flat_map(|p| p.to_array()).flat_map(f32::to_le_bytes).collect();
             out.write_all(&bytes).map_err(Failure::Io)?;
@@ -65,21 +73,24 @@ pub fn write_pc2(
 }
 
 /// Why writing ended early.
-enum Failure {
+enum Failure<E> {
     Io(std::io::Error),
-    File(FileError),
+    Caller(E),
     Found(Found),
 }
 
-fn write_streamed(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<(), Failure>) -> Result<(), FileError> {
-    let refuse = |error| Found::from(Fault::Unwritable(error)).in_file(path);
+fn write_streamed<E: From<FileError>>(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> Result<(), Failure<E>>,
+) -> Result<(), E> {
+    let refuse = |error| E::from(Found::from(Fault::Unwritable(error)).in_file(path));
     let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
     let file = tempfile::NamedTempFile::new_in(folder).map_err(refuse)?;
     let mut out = BufWriter::new(file);
     write(&mut out).map_err(|failure| match failure {
         Failure::Io(error) => refuse(error),
-        Failure::File(error) => error,
-        Failure::Found(found) => found.in_file(path),
+        Failure::Caller(error) => error,
+        Failure::Found(found) => found.in_file(path).into(),
     })?;
     let file = out.into_inner().map_err(|error| refuse(error.into_error()))?;
     make_readable(file.as_file()).map_err(refuse)?;
@@ -87,7 +98,7 @@ fn write_streamed(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<(), 
     Ok(())
 }
 
-fn check(points: &[Vec3], count: usize, name: &str, frame: usize) -> Result<(), Failure> {
+fn check<E>(points: &[Vec3], count: usize, name: &str, frame: usize) -> Result<(), Failure<E>> {
     assert_eq!(points.len(), count, "{name} has as many points in every frame");
     match points.iter().position(|point| !point.is_finite()) {
         None => Ok(()),
@@ -97,13 +108,13 @@ fn check(points: &[Vec3], count: usize, name: &str, frame: usize) -> Result<(), 
     }
 }
 
-fn usda(
+fn usda<E>(
     out: &mut dyn Write,
     meshes: &[MovingFaces<'_>],
     frame_count: usize,
     frame_rate: f64,
-    mut points: impl FnMut(usize, usize) -> Result<Vec<Vec3>, FileError>,
-) -> Result<(), Failure> {
+    mut points: impl FnMut(usize, usize) -> Result<Vec<Vec3>, E>,
+) -> Result<(), Failure<E>> {
     let io = Failure::Io;
     let last = frame_count.saturating_sub(1);
     writeln!(
@@ -129,7 +140,7 @@ fn usda(
         let mut extents = Vec::with_capacity(frame_count);
         writeln!(out, "        point3f[] points.timeSamples = {{").map_err(io)?;
         for frame in 0..frame_count {
-            let points = points(index, frame).map_err(Failure::File)?;
+            let points = points(index, frame).map_err(Failure::Caller)?;
             check(&points, points.len().max(vertex_count), mesh.name, frame)?;
             let start = [Vec3::INFINITY, Vec3::NEG_INFINITY];
             extents.push(points.iter().fold(start, |[low, high], p| [low.min(*p), high.max(*p)]));
@@ -163,11 +174,15 @@ mod tests {
         vec![Vec3::ZERO, Vec3::X, Vec3::new(0.1, 1.0, frame as f32 * 0.5)]
     }
 
+    fn given(points: Vec<Vec3>) -> Result<Vec<Vec3>, FileError> {
+        Ok(points)
+    }
+
     #[test]
     fn a_point_cache_holds_every_frame() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("cloth.pc2");
-        write_pc2(&path, 3, 2, |frame| Ok(points(frame))).expect("written");
+        write_pc2(&path, 3, 2, |frame| given(points(frame))).expect("written");
         let bytes = std::fs::read(&path).expect("there");
         assert_eq!(&bytes[..12], b"POINTCACHE2\0");
         assert_eq!(bytes.len(), 32 + 2 * 3 * 12);
@@ -181,7 +196,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("walk.usda");
         let meshes = [MovingFaces { name: "my skirt", triangles: &[[0, 1, 2]], colour: [0.5, 0.25, 1.0] }];
-        write_usda(&path, &meshes, 2, 30.0, |_, frame| Ok(points(frame))).expect("written");
+        write_usda(&path, &meshes, 2, 30.0, |_, frame| given(points(frame))).expect("written");
         insta::assert_snapshot!(std::fs::read_to_string(&path).expect("there"));
     }
 
@@ -192,9 +207,10 @@ mod tests {
         let meshes = [MovingFaces { name: "skirt", triangles: &[[0, 1, 2]], colour: [0.5; 3] }];
         let broken = |frame: usize| if frame == 1 { vec![Vec3::NAN; 3] } else { points(frame) };
         let error =
-            write_usda(&path, &meshes, 2, 30.0, |_, frame| Ok(broken(frame))).expect_err("not finite").to_string();
+            write_usda(&path, &meshes, 2, 30.0, |_, frame| given(broken(frame))).expect_err("not finite").to_string();
         assert!(error.ends_with("position 0 of skirt in frame 1 is not a finite number"), "{error}");
-        let error = write_pc2(&folder.path().join("a.pc2"), 3, 2, |frame| Ok(broken(frame))).expect_err("not finite");
+        let error =
+            write_pc2(&folder.path().join("a.pc2"), 3, 2, |frame| given(broken(frame))).expect_err("not finite");
         assert!(error.to_string().contains("frame 1"), "{error}");
         assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 0);
     }

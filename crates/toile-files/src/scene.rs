@@ -6,6 +6,8 @@ use crate::garment::read_garment;
 use crate::scene_toml::{CornerToml, FrictionToml, PinToml, PolishToml, RuleToml, SceneToml, SheetToml, WindToml};
 use crate::{scene_body, source, toml_text};
 use glam::{DVec2, DVec3};
+use std::fmt::Display;
+use std::ops::RangeInclusive;
 use std::path::Path;
 use toile_scene::{
     Body, Cloth, Fabric, Friction, Pin, Polish, Rule, Scene, Settings, Sheet, VelocityModification, Wind,
@@ -14,8 +16,14 @@ use toile_scene::{
 /// Frames of a scene that does not say: two seconds at 60 per second.
 const FRAMES: u32 = 120;
 
-/// Most particles along one side of a sheet. Above, a slip of the keyboard would ask for all memory.
-const MOST_COLUMNS: u32 = 8192;
+/// Lengths of a sheet, a sphere's radius [m] and periods [s]: what is smaller or larger is a slip of the keyboard.
+pub(crate) const SIZES: RangeInclusive<f64> = 1e-3..=1e3;
+/// Largest component of a vector: positions [m], velocities [m/s] and gravity [m/s²] beyond it are slips too.
+const COMPONENT_MAX: f64 = 1e6;
+/// Drag and lift of the air.
+const WIND_COEFFICIENTS: RangeInclusive<f64> = 0.0..=100.0;
+/// What is a part of a whole.
+const PARTS: RangeInclusive<f64> = 0.0..=1.0;
 
 /// A scene as it was read.
 #[derive(Clone, Debug)]
@@ -80,33 +88,23 @@ pub(crate) fn wrong(key: &str, message: impl Into<String>) -> Found {
     Found::malformed(Place::Key(key.into()), message)
 }
 
-pub(crate) fn positive(key: &str, value: f64) -> Result<f64, Found> {
-    if value.is_finite() && value > 0.0 {
+/// The value, where it lies in a range; the unit stands in the error.
+pub(crate) fn within<T>(key: &str, value: T, range: RangeInclusive<T>, unit: &str) -> Result<T, Found>
+where
+    T: PartialOrd + Display,
+{
+    if range.contains(&value) {
         return Ok(value);
     }
-    Err(wrong(key, format!("it is {value} and must be above 0")))
-}
-
-fn not_negative(key: &str, value: f64) -> Result<f64, Found> {
-    if value.is_finite() && value >= 0.0 {
-        return Ok(value);
-    }
-    Err(wrong(key, format!("it is {value} and must be 0 or more")))
-}
-
-fn part(key: &str, value: f64) -> Result<f64, Found> {
-    if (0.0..=1.0).contains(&value) {
-        return Ok(value);
-    }
-    Err(wrong(key, format!("it is {value} and must be 0 to 1")))
+    let space = if unit.is_empty() { "" } else { " " };
+    Err(wrong(key, format!("it is {value} and must be {} to {}{space}{unit}", range.start(), range.end())))
 }
 
 pub(crate) fn vector(key: &str, value: [f64; 3]) -> Result<DVec3, Found> {
-    let vector = DVec3::from(value);
-    if vector.is_finite() {
-        return Ok(vector);
+    if value.iter().all(|component| component.abs() <= COMPONENT_MAX) {
+        return Ok(DVec3::from(value));
     }
-    Err(wrong(key, "it must be three finite numbers"))
+    Err(wrong(key, format!("it must be three numbers of at most {COMPONENT_MAX}")))
 }
 
 fn settings(toml: &SceneToml, folder: &Path) -> Result<Settings, Problem> {
@@ -127,26 +125,31 @@ fn settings(toml: &SceneToml, folder: &Path) -> Result<Settings, Problem> {
     if toml.sweeps == Some(0) {
         return Err(wrong("sweeps", "it must be at least 1; rule = \"none\" turns it off").into());
     }
+    let sweeps = toml.sweeps.map(|sweeps| within("sweeps", sweeps, VelocityModification::SWEEPS, "")).transpose()?;
     let polish = toml.polish.map(|polish| convert_polish(polish, rule)).transpose()?;
     let friction = match toml.friction {
         None => default.friction,
         Some(FrictionToml::Coulomb) => Friction::Coulomb,
         Some(FrictionToml::Papers(papers)) => Friction::Papers {
-            velocity_kept: part("friction.papers.velocity_kept", papers.velocity_kept)?,
-            force_removed: part("friction.papers.force_removed", papers.force_removed)?,
+            velocity_kept: within("friction.papers.velocity_kept", papers.velocity_kept, PARTS, "")?,
+            force_removed: within("friction.papers.force_removed", papers.force_removed, PARTS, "")?,
         },
     };
-    let safety = toml.safety.unwrap_or(default.safety);
     Ok(Settings {
-        velocity_modification: VelocityModification { rule, sweeps: toml.sweeps, polish },
+        velocity_modification: VelocityModification { rule, sweeps, polish },
         friction,
-        reflection: part("reflection", toml.reflection.unwrap_or(default.reflection))?,
+        reflection: within("reflection", toml.reflection.unwrap_or(default.reflection), PARTS, "")?,
         gravity: vector("gravity", toml.gravity.unwrap_or(default.gravity.to_array()))?,
         wind: toml.wind.as_ref().map(convert_wind).transpose()?,
-        spacing: positive("spacing", toml.spacing.unwrap_or(default.spacing))?,
-        texel: positive("texel", toml.texel.unwrap_or(default.texel))?,
-        frame_rate: positive("frame_rate", toml.frame_rate.unwrap_or(default.frame_rate))?,
-        safety: part("safety", positive("safety", safety)?)?,
+        spacing: within("spacing", toml.spacing.unwrap_or(default.spacing), Settings::SPACINGS, "m")?,
+        texel: within("texel", toml.texel.unwrap_or(default.texel), Settings::TEXELS, "m")?,
+        frame_rate: within(
+            "frame_rate",
+            toml.frame_rate.unwrap_or(default.frame_rate),
+            Settings::FRAME_RATES,
+            "frames per second",
+        )?,
+        safety: within("safety", toml.safety.unwrap_or(default.safety), Settings::SAFETIES, "")?,
         swept: toml.swept.unwrap_or(default.swept),
         fabric: default.fabric,
     })
@@ -157,22 +160,17 @@ fn convert_polish(toml: PolishToml, rule: Rule) -> Result<Polish, Found> {
     if !matches!(rule, Rule::Predictive | Rule::Hierarchical) {
         return Err(wrong("polish", "it needs rule = \"hierarchical\" or \"predictive\""));
     }
-    if !Polish::TARGETS.contains(&target) {
-        let [least, most] = [Polish::TARGETS.start(), Polish::TARGETS.end()];
-        return Err(wrong("polish.target", format!("it is {target} and must be {least} to {most}")));
-    }
-    if !Polish::SWEEPS.contains(&sweeps) {
-        let [least, most] = [Polish::SWEEPS.start(), Polish::SWEEPS.end()];
-        return Err(wrong("polish.sweeps", format!("it is {sweeps} and must be {least} to {most}")));
-    }
-    Ok(Polish { target, sweeps })
+    Ok(Polish {
+        target: within("polish.target", target, Polish::TARGETS, "")?,
+        sweeps: within("polish.sweeps", sweeps, Polish::SWEEPS, "")?,
+    })
 }
 
 fn convert_wind(toml: &WindToml) -> Result<Wind, Found> {
     let default = Wind::new(vector("wind.velocity", toml.velocity)?);
     Ok(Wind {
-        drag: not_negative("wind.drag", toml.drag.unwrap_or(default.drag))?,
-        lift: not_negative("wind.lift", toml.lift.unwrap_or(default.lift))?,
+        drag: within("wind.drag", toml.drag.unwrap_or(default.drag), WIND_COEFFICIENTS, "")?,
+        lift: within("wind.lift", toml.lift.unwrap_or(default.lift), WIND_COEFFICIENTS, "")?,
         ..default
     })
 }
@@ -180,15 +178,21 @@ fn convert_wind(toml: &WindToml) -> Result<Wind, Found> {
 fn convert_sheet(index: usize, toml: &SheetToml, n: Option<u32>) -> Result<Sheet, Found> {
     let key = |name: &str| format!("sheet.{index}.{name}");
     let count = |name: &str, own: Option<u32>| match own.or(n) {
-        Some(count) if (2..=MOST_COLUMNS).contains(&count) => Ok(count),
+        // A sheet of two rows may be as long as the particles of a square one reach.
         Some(count) => {
             let name = if own.is_some() { key(name) } else { "n".into() };
-            Err(wrong(&name, format!("it is {count} and must be 2 to {MOST_COLUMNS}")))
+            within(&name, count, 2..=Settings::PARTICLE_COUNT_MAX / 2, "")
         }
         None => Err(wrong(&key(name), "it is missing; give it, or n for all sheets")),
     };
     let (columns, rows) = (count("columns", toml.columns)?, count("rows", toml.rows)?);
-    let size = DVec2::new(positive(&key("size"), toml.size[0])?, positive(&key("size"), toml.size[1])?);
+    if columns > Settings::PARTICLE_COUNT_MAX / rows {
+        let sheet = format!("sheet.{index}");
+        let message = format!("{columns} × {rows} particles are more than {}", Settings::PARTICLE_COUNT_MAX);
+        return Err(wrong(if toml.columns.or(toml.rows).is_some() { &sheet } else { "n" }, message));
+    }
+    let side = |length| within(&key("size"), length, SIZES, "m");
+    let size = DVec2::new(side(toml.size[0])?, side(toml.size[1])?);
     let direction = |name: &str, value| {
         vector(&key(name), value)?.try_normalize().ok_or_else(|| wrong(&key(name), "it must be a direction"))
     };

@@ -3,23 +3,31 @@
 use crate::body::{BodyOptions, read_body};
 use crate::error::Found;
 use crate::fabric::Problem;
+use crate::gltf_rig::DURATION_MAX;
 use crate::mesh_sequence::read_mesh_sequence;
 use crate::moving_body::read_moving_body;
-use crate::scene::{positive, vector, wrong};
+use crate::scene::{SIZES, vector, within, wrong};
 use crate::scene_toml::{BodyToml, KeyToml, SphereToml, UnitsToml};
 use glam::{DQuat, DVec3};
 use std::path::Path;
-use toile_scene::{Body, MovingMesh, RigidKey, RigidMotion, Sphere, SphereMotion};
+use toile_scene::{Body, MovingMesh, RigidKey, RigidMotion, Settings, Sphere, SphereMotion};
 
 /// Reads a body of a scene; the second part is what is unusual about it.
 pub(crate) fn convert_body(index: usize, toml: &BodyToml, folder: &Path) -> Result<(Body, Vec<String>), Problem> {
     let key = |name: &str| format!("body.{index}.{name}");
     let metres_per_unit = match toml.units {
         None | Some(UnitsToml::M) => 1.0,
+        Some(UnitsToml::Dm) => 0.1,
         Some(UnitsToml::Cm) => 0.01,
         Some(UnitsToml::Mm) => 0.001,
+        Some(UnitsToml::In) => 0.0254,
     };
     let options = BodyOptions { metres_per_unit, clip: toml.clip.clone(), time: toml.time.unwrap_or(0.0) };
+    if !options.time.is_finite() {
+        return Err(
+            wrong(&key("time"), format!("it is {} and must be a time in the clip in seconds", options.time)).into()
+        );
+    }
     let moving = toml.moving == Some(true);
     let needless = |name: &str, present: bool, why: &str| {
         if present { Err(wrong(&key(name), why)) } else { Ok(()) }
@@ -35,7 +43,7 @@ pub(crate) fn convert_body(index: usize, toml: &BodyToml, folder: &Path) -> Resu
             needless("keys", toml.keys.is_some(), "a sequence moves by its files, not by keys")?;
             let rate =
                 toml.frame_rate.ok_or_else(|| wrong(&key("frame_rate"), "it is missing; a sequence needs it"))?;
-            let rate = positive(&key("frame_rate"), rate)?;
+            let rate = within(&key("frame_rate"), rate, Settings::FRAME_RATES, "frames per second")?;
             let read = read_mesh_sequence(&folder.join(sequence), rate, &options)?;
             (sequence, Body::Moving(read.body), read.warnings)
         }
@@ -69,11 +77,12 @@ pub(crate) fn convert_sphere(index: usize, toml: &SphereToml) -> Result<Sphere, 
         (Some(_), Some(_)) => return Err(wrong(&key("keys"), "give either swing or keys, not both")),
         (Some(swing), None) => SphereMotion::Swing {
             amplitude: vector(&key("swing.amplitude"), swing.amplitude)?,
-            period: positive(&key("swing.period"), swing.period)?,
+            period: within(&key("swing.period"), swing.period, SIZES, "s")?,
         },
         (None, Some(keys)) => SphereMotion::Keys(RigidMotion { keys: convert_keys(&key("keys"), keys)? }),
     };
-    Ok(Sphere { centre: vector(&key("centre"), toml.centre)?, radius: positive(&key("radius"), toml.radius)?, motion })
+    let radius = within(&key("radius"), toml.radius, SIZES, "m")?;
+    Ok(Sphere { centre: vector(&key("centre"), toml.centre)?, radius, motion })
 }
 
 fn convert_keys(key: &str, toml: &[KeyToml]) -> Result<Vec<RigidKey>, Found> {
@@ -83,7 +92,8 @@ fn convert_keys(key: &str, toml: &[KeyToml]) -> Result<Vec<RigidKey>, Found> {
     let mut keys: Vec<RigidKey> = Vec::with_capacity(toml.len());
     for (number, entry) in toml.iter().enumerate() {
         let name = |part: &str| format!("{key}.{number}.{part}");
-        if !entry.time.is_finite() || keys.last().is_some_and(|last| entry.time <= last.time) {
+        within(&name("time"), entry.time, -DURATION_MAX..=DURATION_MAX, "s")?;
+        if keys.last().is_some_and(|last| entry.time <= last.time) {
             let message = format!("it is {} and must be a time after the key before", entry.time);
             return Err(wrong(&name("time"), message));
         }

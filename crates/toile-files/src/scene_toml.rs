@@ -197,9 +197,11 @@ pub(crate) struct KeyToml {
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum UnitsToml {
-    Mm,
-    Cm,
     M,
+    Dm,
+    Cm,
+    Mm,
+    In,
 }
 
 #[derive(Deserialize)]

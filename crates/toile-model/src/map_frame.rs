@@ -38,8 +38,8 @@ impl MapFrame {
             origin_x: low.x - texel,
             origin_y: high.y + texel,
             texel,
-            columns: (size.x / texel).ceil() as u32 + 2,
-            rows: (size.y / texel).ceil() as u32 + 2,
+            columns: ((size.x / texel).ceil() as u32).saturating_add(2),
+            rows: ((size.y / texel).ceil() as u32).saturating_add(2),
             z_front: high.z + DEPTH_PADDING,
             z_back: low.z - DEPTH_PADDING,
         }
@@ -47,7 +47,7 @@ impl MapFrame {
 
     /// Columns and rows that [`MapFrame::moving`] needs for bounds of a size [m].
     pub fn size_for(size: Vec3, texel: f32) -> [u32; 2] {
-        [size.x, size.y].map(|length| (length / texel).ceil() as u32 + 3)
+        [size.x, size.y].map(|length| ((length / texel).ceil() as u32).saturating_add(3))
     }
 
     /// The frame around the bounds of a body that moves [m], with a fixed number of columns and rows. Its borders lie on whole

@@ -13,9 +13,6 @@ use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
 use toile_scene::{Garment, Rule, Settings, Sheet};
 
-/// Largest particle count of a garment: four times the 1024² grid that the step is made for.
-const PARTICLE_LIMIT: u64 = 4_000_000;
-
 /// Stiffness of a seam spring as part of that of a structural one [1]. At full stiffness a gap of 30 cm would pull its
 /// light edge particles together in some ten steps and crumple the panels behind them; closing is the seam pairs' task.
 const SEAM_STIFFNESS: f32 = 1e-4;
@@ -194,12 +191,12 @@ fn check_size(garment: &Garment, spacing: f64) -> Result<(), ModelError> {
         })
         .sum();
     // Written so that NaN passes: the outline check has the better message.
-    if count > PARTICLE_LIMIT as f64 {
+    if count > f64::from(Settings::PARTICLE_COUNT_MAX) {
         return Err(ModelError::TooManyParticles {
             garment: garment.name.clone(),
             spacing,
             count: count as u64,
-            limit: PARTICLE_LIMIT,
+            limit: Settings::PARTICLE_COUNT_MAX.into(),
         });
     }
     Ok(())

@@ -33,6 +33,17 @@ pub struct Settings {
 }
 
 impl Settings {
+    /// Spacings that make cloth [m]: below, a dress has millions of particles; above, its panels have none inside.
+    pub const SPACINGS: RangeInclusive<f64> = 0.001..=0.1;
+    /// Texels that show a body [m].
+    pub const TEXELS: RangeInclusive<f64> = 0.0005..=0.05;
+    /// Frame rates that show a motion [1/s].
+    pub const FRAME_RATES: RangeInclusive<f64> = 1.0..=1000.0;
+    /// Safety factors that leave a step [1].
+    pub const SAFETIES: RangeInclusive<f64> = 0.01..=1.0;
+    /// Most particles of a cloth: four times the 1024² grid that the step is made for.
+    pub const PARTICLE_COUNT_MAX: u32 = 4 << 20;
+
     /// The default settings for a fabric: three sweeps of hierarchical limits, Coulomb friction, particles at 1 cm, texels of 0.5 cm (D eq. 11),
     /// 60 frames per second.
     pub fn new(fabric: Fabric) -> Self {
@@ -96,6 +107,9 @@ pub struct VelocityModification {
 }
 
 impl VelocityModification {
+    /// Sweeps per step that make sense.
+    pub const SWEEPS: RangeInclusive<u32> = 1..=64;
+
     /// A rule with the sweeps that it is made for.
     pub fn new(rule: Rule) -> Self {
         Self { rule, sweeps: None, polish: None }

@@ -9,7 +9,7 @@ use toile_report::EXPERIMENTS;
 /// `toile report`.
 #[derive(Args, Debug)]
 pub struct ReportOf {
-    /// Measure less: ends within five minutes on two cores.
+    /// Measure less: about three minutes on two cores.
     #[arg(long)]
     pub quick: bool,
     /// Run only this experiment; repeat it for more.

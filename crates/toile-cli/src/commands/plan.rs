@@ -3,7 +3,8 @@
 use crate::args::PlanOf;
 use crate::commands::{outfit, print};
 use crate::pattern::{self, Pattern};
-use crate::simulate::sphere;
+use crate::simulate::{check_bodies, sphere};
+use crate::steps::step_settings;
 use anyhow::Result;
 use glam::Vec3;
 use serde::Serialize;
@@ -81,23 +82,25 @@ struct KernelPlan {
 
 /// The plans of all cloths; a garment has one for sewing and one for draping.
 fn plans(scene: &Scene, patterns: &[Pattern]) -> Result<Vec<ClothPlan>> {
+    check_bodies(scene)?;
     let sphere = sphere(scene)?.is_some();
     let mut bounds = bounds(scene);
     let mut plans = Vec::new();
     for Pattern { name, open, sewn, .. } in patterns {
+        let step = |model| step_settings(name, &scene.settings, model);
+        // As a garment is dressed: sewn, then draped.
         let models = match sewn {
-            None => vec![("sheet", open)],
-            Some(sewn) => vec![("open", open), ("sewn", sewn)],
+            None => vec![("sheet", open, step(open)?)],
+            Some(sewn) => vec![("open", open, step(open)?.sewing()), ("sewn", sewn, step(sewn)?.draping())],
         };
         let map_bytes =
             bounds.map_or(0, |b| BodyMaps::bytes_over(&MapFrame::around(b, scene.settings.texel as f32), false));
-        for (state, model) in &models {
-            let settings = StepSettings::new(&scene.settings, model);
-            let needs = Needs::new(model, &settings, if bounds.is_some() { Maps::Still } else { Maps::None }, sphere);
-            plans.push(ClothPlan::new(name, state, model, &settings, &needs, map_bytes));
+        for (state, model, settings) in &models {
+            let needs = Needs::new(model, settings, if bounds.is_some() { Maps::Still } else { Maps::None }, sphere);
+            plans.push(ClothPlan::new(name, state, model, settings, &needs, map_bytes));
         }
         // A later cloth lies over this one. Where it will hang is not known; near the body it changes little.
-        bounds = bounds.or_else(|| around(models.iter().flat_map(|(_, model)| &model.positions)));
+        bounds = bounds.or_else(|| around(models.iter().flat_map(|(_, model, _)| &model.positions)));
     }
     Ok(plans)
 }
@@ -110,8 +113,7 @@ fn bounds(scene: &Scene) -> Option<[Vec3; 2]> {
         .iter()
         .filter_map(|body| match body {
             Body::Mesh(mesh) => mesh.bounds(),
-            Body::Moving(body) => body.mesh.bounds(),
-            Body::Sphere(_) => None,
+            Body::Moving(_) | Body::Sphere(_) => None,
         })
         .flat_map(|[low, high]| [low - thickness, high + thickness])
         .collect();

@@ -10,12 +10,13 @@ use crate::picture::{self, Drawn, View};
 use crate::progress::Progress;
 use crate::simulate::sphere;
 use crate::sphere_mesh::sphere_mesh;
+use crate::steps::step_settings;
 use anyhow::{Result, bail};
 use glam::{DVec3, Vec3};
 use serde::Serialize;
 use toile::files::{SceneFile, read_scene, write_atomically};
-use toile::model::{Model, Status, StepSettings};
-use toile::scene::{Cloth, Mesh, Rule, Sphere, VelocityModification};
+use toile::model::{Model, Status};
+use toile::scene::{Cloth, Mesh, Rule, Sphere};
 
 /// Height of the pictures [px].
 const PICTURE_HEIGHT: u32 = 480;
@@ -58,10 +59,11 @@ pub fn run(arguments: &Rules) -> Result<()> {
         pictures.push(picture::render(&drawn, View::ThreeQuarter, PICTURE_HEIGHT)?);
         rows.push(row);
     }
-    std::fs::create_dir_all(&running.out)?;
-    picture::save_png(&running.out.join("rules.png"), &picture::strip(&pictures))?;
     let text = serde_json::to_string_pretty(&rows)?;
-    write_atomically(&running.out.join("rules.json"), text.as_bytes())?;
+    output::write_whole(&running.out, |folder| {
+        picture::save_png(&folder.join("rules.png"), &picture::strip(&pictures))?;
+        Ok(write_atomically(&folder.join("rules.json"), text.as_bytes())?)
+    })?;
     if running.json {
         print(&text)?;
     } else if !running.quiet {
@@ -84,13 +86,19 @@ fn try_rule(
     let ([Cloth::Sheet(sheet)], sphere) = (scene.cloths.as_slice(), sphere(scene)?) else {
         bail!("scene {} is not one sheet: the rules are compared on a single sheet", scene.name);
     };
+    if scene.settings.velocity_modification.polish.is_some() {
+        bail!(
+            "scene {} has a polish, and few rules have one: the rules are compared without, leave it out",
+            scene.name
+        );
+    }
     if scene.bodies.len() != usize::from(sphere.is_some()) {
         bail!("scene {} has a mesh body: the rules are compared on a sheet alone or with a sphere", scene.name);
     }
     let mut settings = scene.settings.clone();
-    settings.velocity_modification = VelocityModification::new(rule);
+    settings.velocity_modification.rule = rule;
     let model = Model::from_sheet(sheet, &settings);
-    let step = StepSettings::new(&settings, &model);
+    let step = step_settings(name, &settings, &model)?;
     let mut engine = computer.start(&model, &step, &[], sphere.clone(), settings.texel as f32)?;
     let mut state = engine.state()?;
     let mut last = Status::default();

@@ -42,10 +42,6 @@ pub fn run(arguments: &Walk) -> Result<()> {
             frame_count,
             precompute_maps: arguments.precompute_maps,
             resume: arguments.resume,
-            identity: format!(
-                "{outfit:?} {seconds} s {} fps, dressed in {:?}, wind {:?}, maps kept: {}",
-                arguments.fps, arguments.dress_in, arguments.wind, arguments.precompute_maps
-            ),
         },
         &arguments.running,
     )

@@ -25,6 +25,17 @@ pub struct Contact {
     pub false_fraction: f64,
 }
 
+/// How far from a surface a particle may touch it in the maps [m]: thickness + 2 texels.
+pub fn reach(thickness: f64, texel: f32) -> f64 {
+    thickness + 2.0 * f64::from(texel)
+}
+
+/// Whether a particle at a point [m], so deep in the bodies [m], is farther than `reach` [m] from them and from the garments below it.
+pub fn is_far(point: DVec3, depth: f64, garments: &[ExactDistance], reach: f64) -> bool {
+    // A garment has two sides, so only its distance counts.
+    depth < -reach && garments.iter().all(|garment| garment.penetration(point).abs() > reach)
+}
+
 enum Exact {
     Mesh(Box<ExactDistance>),
     Sphere(Sphere),
@@ -62,13 +73,11 @@ impl Surfaces {
         let points = || worn.mesh.positions.iter().map(|p| p.as_dvec3());
         let depth = |point| self.bodies.iter().map(|body| body.penetration(point, time)).reduce(f64::max);
         let depths: Vec<f64> = points().filter_map(depth).collect();
-        let reach = self.thickness + 2.0 * f64::from(texel);
-        // A garment has two sides, so only its distance counts.
-        let near = |point| self.garments.iter().any(|garment| garment.penetration(point).abs() <= reach);
+        let reach = reach(self.thickness, texel);
         let false_count = points()
             .zip(&depths)
             .zip(&worn.touching)
-            .filter(|((point, depth), touching)| **touching && **depth < -reach && !near(*point))
+            .filter(|((point, depth), touching)| **touching && is_far(*point, **depth, &self.garments, reach))
             .count();
         let false_fraction = false_count as f64 / depths.len() as f64;
         let [penetration_max, penetration_p99] = max_and_p99(depths)?;

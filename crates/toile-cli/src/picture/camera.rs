@@ -14,6 +14,9 @@ const PITCH: f32 = 7.0;
 /// Part of the width and of the height that stays free on each side.
 const MARGIN: f32 = 0.03;
 
+/// Farthest coordinate of the raster [steps of a cell]: differences and their products stay whole numbers.
+const FARTHEST: f32 = (1 << 29) as f32;
+
 /// An orthographic projection onto a grid of cells, the first one at the upper left.
 pub struct Projection {
     /// Unit vectors to the right, up and towards the eye as rows.
@@ -38,7 +41,7 @@ impl Projection {
     /// The same as the raster reads it.
     pub fn project(&self, point: Vec3) -> Corner {
         let p = self.place(point);
-        let fixed = |v: f32| (v * SUBPIXELS as f32) as i32;
+        let fixed = |v: f32| (v * SUBPIXELS as f32).clamp(-FARTHEST, FARTHEST) as i32;
         Corner { x: fixed(p.x), y: fixed(p.y), height: p.z }
     }
 }

@@ -18,6 +18,9 @@ const KEY_CELLS: f32 = 896.0;
 /// Half the angle under which the key light is seen, as a tangent: it makes the edges of shadows soft.
 const KEY_SPREAD: f32 = 0.11;
 
+/// How far from the middle of the picture cloth and bodies shade others, in radii of the scene.
+const SHADE: Vec2 = Vec2::splat(4.0);
+
 /// All lights of a picture. They stand around the camera: each view is lit alike.
 pub struct Studio {
     lamps: Vec<Lamp>,
@@ -121,7 +124,8 @@ impl ShadowMap {
     fn new(soup: &Soup, toward: Vec3, cells: f32) -> Self {
         let axes = Axes::from(toward);
         let scale = 0.5 * cells;
-        let [low, high] = axes.bounds(&soup.positions);
+        // What lies far out of the picture shades nothing in it.
+        let [low, high] = axes.bounds(&soup.positions).map(|corner| corner.clamp(-SHADE, SHADE));
         // Two free cells all around, so that a comparison at the rim finds cells without anything in them.
         let origin = Vec2::new(-low.x, high.y) * scale + 2.0;
         let [width, height] = ((high - low) * scale).to_array().map(|v| v.ceil() as usize + 4);

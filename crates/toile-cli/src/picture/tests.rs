@@ -193,6 +193,25 @@ fn enormous_coordinates_still_give_a_picture() {
 }
 
 #[test]
+fn what_lies_far_out_of_the_picture_takes_no_memory_and_shades_nothing() {
+    let near = ball(Vec3::Y, 1.0);
+    let stage = [Vec3::new(-1.2, 0.0, -1.2), Vec3::new(1.2, 2.0, 1.2)];
+    let picture = |meshes: &[&Mesh]| {
+        let drawn: Vec<_> = meshes.iter().map(|mesh| Drawn { mesh, material: GREEN, thickness: 0.0 }).collect();
+        render_in(&drawn, stage, View::Front, 100).expect("a finite scene has a picture")
+    };
+    let alone = picture(&[&near]);
+    assert!(count(&alone, is_green) > 1000);
+    for far in [1e3, 1e9, 1e30] {
+        let both = picture(&[&near, &ball(Vec3::new(far, -far, 0.0), 1.0)]);
+        // The cells of a shadow lie elsewhere, so its rim does by a cell.
+        let difference: u32 = both.iter().zip(alone.iter()).map(|(a, b)| u32::from(a.abs_diff(*b))).sum();
+        let mean = f64::from(difference) / both.len() as f64;
+        assert!(mean < 1.0, "{far} m away: {mean} of 255");
+    }
+}
+
+#[test]
 fn the_same_input_gives_the_same_bytes() {
     let [a, b] = [ball(Vec3::ZERO, 1.0), ball(Vec3::new(0.3, 0.9, 0.5), 0.6)];
     let scene = [(&a, GREEN), (&b, RED)];

@@ -3,7 +3,7 @@
 use super::Walker;
 use super::regions::Regions;
 use super::saved::GarmentState;
-use crate::metrics::max_and_p99;
+use crate::metrics::{is_far, max_and_p99, reach};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use toile::model::{Model, Status};
@@ -32,7 +32,7 @@ pub struct WalkMetrics {
     non_finite_count: u32,
     maps_ms_median: f64,
     simulation_ms_median: f64,
-    /// The part of `simulation_ms` that goes to the bodies: reaction, quad midpoints, sampling of the maps and response; from a
+    /// The part of `simulation_ms` that goes to the bodies: reaction, quad midpoints, sampling of the maps, response and what the guard keeps out; from a
     /// step after the walk, timed pass by pass.
     collision_ms_median: f64,
     output_ms_median: f64,
@@ -58,13 +58,13 @@ pub struct FrameRow {
     pub further_sweeps: u32,
     /// Steps of the frame, of all garments, that ended above its target.
     pub missed_steps: u32,
-    /// 99th percentile of it, of the garment where it is largest [1].
+    /// 99th percentile of the elongation, of the garment where it is largest [1].
     pub elongation_p99: f64,
     /// Deepest particle below the exact surface of the body [mm], negative when all are outside.
     pub penetration_max_mm: f64,
-    /// 99th percentile of it, of the garment where it is largest [mm].
+    /// 99th percentile of that depth, of the garment where it is largest [mm].
     pub penetration_p99_mm: f64,
-    /// Particles in contact by the maps that are farther from the body than thickness + 2 texels, as part of all.
+    /// Particles in contact by the maps that are farther from body and inner garments than thickness + 2 texels, as part of all.
     pub false_contact_fraction: f64,
     /// Those particles by the region of the body that is nearest to them.
     pub false_contacts_by_region: BTreeMap<String, u32>,
@@ -99,7 +99,7 @@ impl FrameRow {
         }
     }
 
-    /// Adds a garment.
+    /// Adds a garment that lies over the `inner` ones.
     #[expect(clippy::too_many_arguments, reason = "a row is where garment, body and settings meet")]
     pub fn add(
         &mut self,
@@ -107,6 +107,7 @@ impl FrameRow {
         state: &GarmentState,
         status: &Status,
         exact: &ExactDistance,
+        inner: &[ExactDistance],
         body: &Mesh,
         regions: &Regions,
         thickness: f64,
@@ -127,10 +128,10 @@ impl FrameRow {
         }
         self.elongation_p99 = self.elongation_p99.max(p99);
         let depths: Vec<f64> = positions.iter().map(|p| exact.penetration(p.as_dvec3())).collect();
-        let reach = thickness + 2.0 * f64::from(texel);
+        let reach = reach(thickness, texel);
         let mut false_count = 0;
         for ((position, depth), touching) in positions.iter().zip(&depths).zip(state.touching()) {
-            if touching && *depth < -reach {
+            if touching && is_far(position.as_dvec3(), *depth, inner, reach) {
                 false_count += 1;
                 let region = regions.nearest(body, position.as_dvec3());
                 *self.false_contacts_by_region.entry(region.to_owned()).or_default() += 1;

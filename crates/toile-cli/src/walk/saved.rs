@@ -7,14 +7,14 @@ use glam::{Vec3, Vec4};
 use std::fs;
 use std::path::{Path, PathBuf};
 use toile::Simulation;
-use toile::files::{FileError, write_atomically};
+use toile::files::write_atomically;
 use toile::gpu::readback;
 use toile::model::Model;
 
 /// Folder of a walk that is not finished, within that of its results.
 const FOLDER: &str = ".unfinished-walk";
 /// File that says which walk it is.
-const IDENTITY: &str = "identity.json";
+const IDENTITY: &str = "identity.txt";
 
 /// The state of a garment as the device holds it: arrays of vec4.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,39 +82,45 @@ impl GarmentState {
 /// The frames of a walk on disk.
 pub struct Saved {
     folder: PathBuf,
+    identity: String,
 }
 
 impl Saved {
-    /// Opens the frames of a walk, or begins.
+    /// Opens the frames of a walk; a new one leaves nothing on disk before its first frame.
     ///
-    /// An unfinished walk is never overwritten: it is an error unless `resume` says to go on, and then it must be the same walk.
-    pub fn open(out: &Path, identity: &str, resume: bool) -> Result<Self> {
-        let folder = out.join(FOLDER);
-        let saved = Self { folder };
-        let known = saved.folder.join(IDENTITY);
-        // Before its first frame there is nothing to lose.
-        if known.exists() && saved.frame_count() > 0 {
-            if !resume {
-                bail!(
-                    "{} holds an unfinished walk: go on with --resume, name another folder, or delete {}",
-                    out.display(),
-                    saved.folder.display()
-                );
+    /// An unfinished walk is never overwritten: it is an error unless `resume` says to go on, and then it must have the same identity.
+    pub fn open(out: &Path, identity: String, resume: bool) -> Result<Self> {
+        let saved = Self { folder: out.join(FOLDER), identity };
+        match (saved.frame_count(), resume) {
+            (0, false) => Ok(saved),
+            (0, true) => bail!("there is no unfinished walk in {}: leave --resume out", out.display()),
+            (_, false) => bail!(
+                "{} holds an unfinished walk: go on with --resume, name another folder, or delete {}",
+                out.display(),
+                saved.folder.display()
+            ),
+            (_, true) => {
+                let known = saved.folder.join(IDENTITY);
+                let text =
+                    fs::read_to_string(&known).with_context(|| format!("{}: it cannot be read", known.display()))?;
+                if text != saved.identity {
+                    bail!(
+                        "the unfinished walk in {} is another one: give the same options and files, or name another folder",
+                        out.display()
+                    );
+                }
+                Ok(saved)
             }
-            if fs::read_to_string(&known)? != identity {
-                bail!(
-                    "the unfinished walk in {} is another one: give the same options, or name another folder",
-                    out.display()
-                );
-            }
-            return Ok(saved);
         }
-        if resume {
-            bail!("there is no unfinished walk in {}: leave --resume out", out.display());
+    }
+
+    /// Makes the folder of a walk that begins, without what one that lost its first frame may have left there.
+    fn begin(&self) -> Result<()> {
+        if self.folder.exists() {
+            self.remove()?;
         }
-        fs::create_dir_all(&saved.folder).with_context(|| format!("cannot create {}", saved.folder.display()))?;
-        write_atomically(&known, identity.as_bytes())?;
-        Ok(saved)
+        fs::create_dir_all(&self.folder).with_context(|| format!("cannot create {}", self.folder.display()))?;
+        Ok(write_atomically(&self.folder.join(IDENTITY), self.identity.as_bytes())?)
     }
 
     /// How many frames there are, without a gap from the first.
@@ -122,8 +128,11 @@ impl Saved {
         (0..).take_while(|frame| self.state_path(*frame).exists()).count() as u32
     }
 
-    /// Keeps a frame.
+    /// Keeps a frame; frame 0 begins the walk.
     pub fn write(&self, frame: u32, states: &[GarmentState], row: Option<&FrameRow>) -> Result<()> {
+        if frame == 0 {
+            self.begin()?;
+        }
         if let Some(row) = row {
             write_atomically(&self.row_path(frame), &serde_json::to_vec(row)?)?;
         }
@@ -140,8 +149,7 @@ impl Saved {
     pub fn read(&self, frame: u32) -> Result<Vec<GarmentState>> {
         let path = self.state_path(frame);
         let bytes = fs::read(&path).with_context(|| format!("{}: it cannot be read", path.display()))?;
-        let damaged =
-            || format!("{}: it is damaged: delete it, and --resume goes on from the frame before", path.display());
+        let damaged = || self.damaged(frame);
         let mut arrays = Vec::new();
         let mut rest = bytes.as_slice();
         while !rest.is_empty() {
@@ -161,12 +169,16 @@ impl Saved {
         Ok(states)
     }
 
+    fn damaged(&self, frame: u32) -> String {
+        let path = self.state_path(frame);
+        format!("{}: it is damaged: delete it, and --resume goes on from the frame before", path.display())
+    }
+
     /// Positions of a garment in a frame [m].
-    pub fn positions(&self, frame: u32, garment: usize) -> Result<Vec<Vec3>, FileError> {
-        match self.read(frame) {
-            Ok(states) if garment < states.len() => Ok(states[garment].positions()),
-            _ => Err(FileError::unreadable(&self.state_path(frame))),
-        }
+    pub fn positions(&self, frame: u32, garment: usize) -> Result<Vec<Vec3>> {
+        let states = self.read(frame)?;
+        let state = states.get(garment).with_context(|| self.damaged(frame))?;
+        Ok(state.positions())
     }
 
     /// The rows of the frames from 1 to `last`.
@@ -200,9 +212,11 @@ mod tests {
     #[test]
     fn a_walk_goes_on_only_where_and_as_it_was() {
         let out = tempfile::tempdir().expect("a folder");
-        let told = |resume, identity| Saved::open(out.path(), identity, resume).map(|_| ()).map_err(|e| e.to_string());
+        let open = |resume, identity: &str| Saved::open(out.path(), identity.to_owned(), resume);
+        let told = |resume, identity| open(resume, identity).map(|_| ()).map_err(|e| e.to_string());
         assert!(told(true, "a").is_err_and(|e| e.contains("no unfinished walk")));
-        let saved = Saved::open(out.path(), "a", false).expect("a new walk");
+        let saved = open(false, "a").expect("a new walk");
+        assert_eq!(fs::read_dir(out.path()).expect("a folder").count(), 0, "nothing is written before its first frame");
         let state = GarmentState::at_rest(&[Vec3::X, Vec3::Y]);
         saved.write(0, &[state.clone(), state.clone()], None).expect("written");
         assert!(told(false, "a").is_err_and(|e| e.contains("--resume")), "nothing is overwritten");
@@ -218,6 +232,13 @@ mod tests {
         let bytes = fs::read(&path).expect("there");
         fs::write(&path, &bytes[..bytes.len() - 3]).expect("cut short");
         assert!(saved.read(0).is_err_and(|e| e.to_string().contains("damaged")));
+        assert!(saved.positions(0, 0).is_err_and(|e| e.to_string().contains("delete it")));
+
+        fs::remove_file(&path).expect("deleted");
+        let anew = open(false, "b").expect("without its first frame it begins anew");
+        anew.write(0, std::slice::from_ref(&GarmentState::at_rest(&[Vec3::Z])), None).expect("written");
+        assert!(!anew.state_path(2).exists(), "what the other one left is gone");
+        assert_eq!(told(true, "b"), Ok(()));
         saved.remove().expect("removed");
         assert!(told(true, "a").is_err());
     }

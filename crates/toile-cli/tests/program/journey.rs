@@ -41,6 +41,15 @@ fn a_plan_needs_no_adapter() {
     insta::assert_snapshot!("plan_hang", plan(&[&fixture("scenes/hang.toml"), "--set", "n=16"]));
     let skirt = fixture("garments/skirt.json");
     insta::assert_snapshot!("plan_skirt", plan(&["--garment", &skirt, "--spacing", "4cm"]));
+    // A garment is dressed without wind and polish, so its plan has none of their passes.
+    let windy = format!(
+        "spacing = 0.04\nwind = {{ velocity = [1, 0, 0] }}\npolish = {{ target = 0.05, sweeps = 2 }}\n[[garment]]\nfile = {skirt:?}\n"
+    );
+    fs::write(journey.folder.path().join("windy.toml"), windy).expect("written");
+    let told = plan(&["windy.toml"]);
+    assert!(!told.contains("wind"), "{told}");
+    let [open, sewn] = told.split_once("skirt, sewn").map(|(open, sewn)| [open, sewn]).expect("two plans");
+    assert!(!open.contains("grant_sweep") && sewn.contains("grant_sweep"), "{told}");
     let plans = json(&plan(&["--garment", &skirt, "--spacing", "4cm", "--json"]));
     let states: Vec<_> = list(&plans).iter().map(|plan| &plan["state"]).collect();
     assert_eq!(states, ["open", "sewn"]);
@@ -70,17 +79,17 @@ fn the_plan_is_what_the_run_does() {
     assert_eq!(plan["bytes"], run["gpu_bytes"]);
     assert_eq!(plan["map_bytes"], 0);
     // Timestamps are there on the adapter of the tests, so every kernel of a step has its time.
-    let dispatches = |kernels: &Value, key: &str| -> Vec<(String, u64)> {
-        let mut pairs: Vec<_> = list(kernels)
-            .iter()
-            .map(|kernel| {
-                (kernel[key].as_str().expect("a name").to_owned(), kernel["dispatches"].as_u64().expect("a number"))
-            })
-            .collect();
-        pairs.sort();
-        pairs
-    };
     assert_eq!(dispatches(&run["passes"], "name"), dispatches(&plan["step"], "kernel"));
+}
+
+/// Dispatches of each kernel; the key is that of its name.
+fn dispatches(kernels: &Value, key: &str) -> Vec<(String, u64)> {
+    let pair = |kernel: &Value| {
+        (kernel[key].as_str().expect("a name").to_owned(), kernel["dispatches"].as_u64().expect("a number"))
+    };
+    let mut pairs: Vec<_> = list(kernels).iter().map(pair).collect();
+    pairs.sort();
+    pairs
 }
 
 #[test]
@@ -205,10 +214,18 @@ fn two_spheres_are_refused_rather_than_one_of_them_forgotten() {
     let journey = Journey::new();
     let text = fs::read_to_string(fixture("scenes/ball.toml")).expect("a scene");
     let second = "\n[[sphere]]\ncentre = [1.0, 0.0, 0.0]\nradius = 0.1\n";
-    fs::write(journey.folder.path().join("two.toml"), text + second).expect("a file");
+    fs::write(journey.folder.path().join("two.toml"), text.clone() + second).expect("a file");
+    let moving = "\n[[body]]\nfile = \"body.obj\"\nkeys = [{ time = 0 }, { time = 1, translation = [1, 0, 0] }]\n";
+    fs::write(journey.folder.path().join("moving.toml"), text + moving).expect("a file");
+    fs::write(journey.folder.path().join("body.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("a file");
     for command in ["run", "plan"] {
         let sentence = refused(journey.run(&[command, "two.toml"]));
         assert_eq!(sentence, "scene ball has 2 spheres, and a scene can have one: remove the others");
+        let sentence = refused(journey.run(&[command, "moving.toml"]));
+        assert!(sentence.starts_with("scene ball has a mesh that moves"), "{sentence}");
+        let stiff = ["--set", "rule=none", "--set", "fabric.structural_stiffness=1e6", "--set", "n=256"];
+        let sentence = refused(journey.run(&[&[command, &fixture("scenes/hang.toml")], &stiff[..]].concat()));
+        assert!(sentence.contains("a frame would take"), "{sentence}");
     }
 }
 
@@ -288,6 +305,12 @@ fn a_garment_that_is_too_tight_stretches_rather_than_cut_into_the_body() {
     let number = |name: &str| metrics[name].as_f64().expect("a number");
     assert!((0.06..0.12).contains(&number("elongation_max")), "it is too tight for its limits: {metrics}");
     assert!(number("penetration_max_mm") < 1.0, "{metrics}");
+    // The plan of a garment is what it is draped with.
+    let plans = json(&good(journey.run(&["plan", "--garment", "tight.json", "--spacing", "3cm", "--json"])));
+    let sewn = &list(&plans)[1];
+    assert_eq!(dispatches(&metrics["passes"], "name"), dispatches(&sewn["step"], "kernel"));
+    let bytes = ["bytes", "map_bytes"].map(|key| sewn[key].as_u64().expect("a number"));
+    assert_eq!(metrics["gpu_bytes"], bytes[0] + bytes[1]);
 }
 
 #[test]
@@ -311,10 +334,11 @@ fn an_interrupted_walk_goes_on_bit_for_bit() {
     use std::time::{Duration, Instant};
 
     let journey = Journey::new();
-    let skirt = fixture("garments/skirt.json");
+    let skirt = journey.folder.path().join("skirt.json");
+    fs::copy(fixture("garments/skirt.json"), &skirt).expect("copied");
     let walk = |out: &'static str, more: &[&'static str]| {
         let options =
-            ["walk", "--garment", &skirt, "--spacing", "4cm", "--texel", "1cm", "--seconds", "0.2", "--quiet"];
+            ["walk", "--garment", "skirt.json", "--spacing", "4cm", "--texel", "1cm", "--seconds", "0.2", "--quiet"];
         journey.command(&[&options[..], &["--out", out], more].concat())
     };
     good(walk("whole", &[]).output().expect("the program runs"));
@@ -333,6 +357,10 @@ fn an_interrupted_walk_goes_on_bit_for_bit() {
     assert!(!journey.folder.path().join("halves/walk.usda").exists(), "it was interrupted before its end");
     assert!(refused(walk("halves", &[]).output().expect("it runs")).contains("--resume"));
     assert!(refused(walk("whole", &["--resume"]).output().expect("it runs")).contains("no unfinished walk"));
+
+    fs::write(&skirt, narrower_skirt(0.01)).expect("written");
+    assert!(refused(walk("halves", &["--resume"]).output().expect("it runs")).contains("another one"));
+    fs::copy(fixture("garments/skirt.json"), &skirt).expect("copied");
 
     good(walk("halves", &["--resume"]).output().expect("the program runs"));
     for file in ["walk.usda", "0_skirt.pc2", "walk.gif", "walk.png", "frame_0006.png"] {
@@ -376,6 +404,15 @@ fn every_rule_is_shown_and_the_default_holds_where_others_run_away() {
     let garment = fixture("garments/skirt.json");
     fs::write(journey.folder.path().join("g.toml"), format!("[[garment]]\nfile = {garment:?}\n")).expect("written");
     assert!(refused(journey.run(&["rules", "g.toml"])).contains("not one sheet"));
+    let polish = ["--set", "polish={ target = 0.05, sweeps = 2 }", "--backend", "reference"];
+    assert!(refused(journey.run(&[&["rules", &hang], &polish[..]].concat())).contains("leave it out"));
+    // Sweeps that the scene asks for are those of every rule.
+    let swept = ["--set", "n=8", "--set", "frames=10", "--set", "sweeps=6", "--backend", "reference", "--json"];
+    let more = json(&good(journey.run(&[&["rules", &hang], &swept[..]].concat())));
+    let once = ["--set", "n=8", "--set", "frames=10", "--backend", "reference", "--json"];
+    let less = json(&good(journey.run(&[&["rules", &hang], &once[..]].concat())));
+    let predictive = |told: &Value| list(told)[5]["elongation_max_over_run"].as_f64().expect("a number");
+    assert!(predictive(&more) < predictive(&less), "{} and {}", predictive(&more), predictive(&less));
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! OBJ and PLY bodies: formats, repairs, warnings and places of errors.
 
 use crate::support::{ellipsoid, obj_text, ply_bytes};
+use glam::Vec3;
 use toile_files::{BodyFile, BodyOptions, Fault, Place, parse_body};
 use toile_scene::Mesh;
 
@@ -198,7 +199,7 @@ fn ply_errors_name_line_byte_or_row() {
 }
 
 #[test]
-fn the_units_message_names_the_flag_that_helps() {
+fn the_units_message_names_the_unit_that_helps() {
     let scaled = |factor: f32| {
         let mut mesh = ellipsoid();
         mesh.positions.iter_mut().for_each(|position| *position *= factor);
@@ -206,15 +207,38 @@ fn the_units_message_names_the_flag_that_helps() {
     };
     let cases = [scaled(1000.0), scaled(100.0), scaled(0.01), scaled(1e6)];
     let messages: Vec<String> = cases.iter().map(|text| refusal(text, "a.obj")).collect();
-    insta::assert_snapshot!(messages.join("\n"), @r#"
-    a.obj: the body is 1600 m tall, and bodies are 0.2 m to 4 m tall: give --body-units mm if it should be 1.60 m
-    a.obj: the body is 160 m tall, and bodies are 0.2 m to 4 m tall: give --body-units cm if it should be 1.60 m
-    a.obj: the body is 0.0160 m tall, and bodies are 0.2 m to 4 m tall: none of --body-units mm, cm or m makes it a body's size
-    a.obj: the body is 1.60e6 m tall, and bodies are 0.2 m to 4 m tall: none of --body-units mm, cm or m makes it a body's size
-    "#);
+    insta::assert_snapshot!(messages.join("\n"), @"
+    a.obj: the body is 1600 m tall, and bodies are 0.2 m to 4 m tall: give mm as its unit if it should be 1.60 m
+    a.obj: the body is 160 m tall, and bodies are 0.2 m to 4 m tall: give cm as its unit if it should be 1.60 m
+    a.obj: the body is 0.0160 m tall, and bodies are 0.2 m to 4 m tall: no unit from mm to m makes it a body's size
+    a.obj: the body is 1.60e6 m tall, and bodies are 0.2 m to 4 m tall: no unit from mm to m makes it a body's size
+    ");
     let options = BodyOptions { metres_per_unit: 0.001, ..BodyOptions::default() };
     let error = parse_body(scaled(1.0).as_bytes(), "a.obj", &options).expect_err("1.6 mm");
-    assert!(error.to_string().contains("--body-units m "), "{error}");
+    assert!(error.to_string().contains("give m as its unit"), "{error}");
+}
+
+#[test]
+fn what_lies_far_from_a_body_is_refused() {
+    let mut mesh = ellipsoid();
+    let first = mesh.positions.len() as u32;
+    mesh.positions.extend([[1e30, 1.0, 0.0], [1e30, 1.1, 0.0], [1e30, 1.0, 0.1]].map(Vec3::from));
+    mesh.normals.extend([Vec3::X; 3]);
+    mesh.triangles.push([first, first + 1, first + 2]);
+    let message = refusal(obj_text(&mesh), "a.obj");
+    insta::assert_snapshot!(message, @"a.obj: the body is 1.00e30 m wide, and bodies are at most 10 m to the sides: remove what lies far from it");
+}
+
+#[test]
+fn a_clip_or_a_time_that_there_is_none_of_is_refused() {
+    let told = |clip: Option<&str>, time| {
+        let options = BodyOptions { clip: clip.map(String::from), time, ..BodyOptions::default() };
+        parse_body(obj_text(&ellipsoid()).as_bytes(), "a.obj", &options).expect_err("no clip").to_string()
+    };
+    insta::assert_snapshot!([told(Some("walk"), 0.0), told(None, 0.5)].join("\n"), @"
+    a.obj: files of its kind have no clips: leave the clip out
+    a.obj: a time is one in a clip: name the clip, or leave the time out
+    ");
 }
 
 #[test]

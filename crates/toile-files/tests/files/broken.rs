@@ -34,7 +34,7 @@ fn every_broken_file_has_its_sentence() {
     ten_gigabytes.glb: buffer 0 needs 10000000000 bytes, but the file has only 1752 left: it is truncated or damaged
     ten_gigabytes.ply, byte 228: element vertex with 833333334 rows needs 10000000008 bytes, but the file has only 36 left: it is truncated or damaged
     truncated.glb, byte 0: the GLB file by its header needs 2320 bytes, but the file has only 1546 left: it is truncated or damaged
-    wrong_units.obj: the body is 160 m tall, and bodies are 0.2 m to 4 m tall: give --body-units cm if it should be 1.60 m
+    wrong_units.obj: the body is 160 m tall, and bodies are 0.2 m to 4 m tall: give cm as its unit if it should be 1.60 m
     "#);
 }
 

@@ -282,6 +282,14 @@ fn what_cannot_move_is_refused() {
     change("/animations/0/samplers/0/output", 4.into(), None);
     change("/animations/0/channels/0/target/path", "colour".into(), None);
     change("/animations/0/channels/1/target/node", 7.into(), None);
+    let index = |value: &Value| value.as_u64().expect("an index") as usize;
+    let times = index(&root["animations"][0]["samplers"][0]["input"]);
+    let view = index(&root["accessors"][times]["bufferView"]);
+    let last = index(&root["bufferViews"][view]["byteOffset"]) + 4;
+    let mut long = bytes.clone();
+    long[last..last + 4].copy_from_slice(&1e9f32.to_le_bytes());
+    let error = parse_moving_body(&embedded(root.clone(), &long), "a.gltf", &BodyOptions::default());
+    messages.push(error.expect_err("a refusal").to_string());
     for name in ["a.obj", "a.stl"] {
         let error = parse_moving_body(obj_text(&ellipsoid()).as_bytes(), name, &BodyOptions::default());
         messages.push(error.expect_err("a refusal").to_string());
@@ -294,6 +302,7 @@ fn what_cannot_move_is_refused() {
     a.gltf, accessor 4: it must be Vec3 and is Vec4
     a.gltf, key "animations[0].channels[0].target.path": a clip moves "translation", "rotation", "scale" or "weights"
     a.gltf, key "animations[0].channels[1].target.node": node 7 does not exist: there are 2
+    a.gltf: the clip "move" is 1000000000 s long, and clips are at most 3600 s: cut it
     a.obj: the motion of a .obj file, which has none (a .gltf or .glb file can have clips), cannot be read
     a.stl: its name ends in none of the known ways: .gltf, .glb
     "#);
