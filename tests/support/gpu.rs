@@ -21,7 +21,7 @@ impl Deref for Gpu {
     }
 }
 
-/// The device of this test process.
+/// The device of this test process: a driver on the CPU where there is one.
 ///
 /// # Panics
 /// When there is no adapter or it gives no device.
@@ -33,7 +33,7 @@ pub fn gpu() -> &'static Gpu {
 }
 
 impl Gpu {
-    /// Opens the best adapter of these backends.
+    /// Opens an adapter of these backends.
     ///
     /// # Errors
     /// When there is none, with what wgpu says and what to install.
@@ -68,14 +68,23 @@ pub fn lab() -> Lab {
     Lab::new(gpu.device.clone(), gpu.queue.clone(), gpu.adapter.clone(), Scale::Quick, 1)
 }
 
+/// Whether an adapter is a driver on the CPU. It does one operation after the other, as the reference does; a GPU may contract and
+/// reorder them, as WGSL allows, and then gives other bits.
+fn is_software(adapter: &wgpu::Adapter) -> bool {
+    adapter.get_info().device_type == wgpu::DeviceType::Cpu
+        && adapter.get_downlevel_capabilities().is_webgpu_compliant()
+}
+
 async fn open(backends: wgpu::Backends) -> Result<Gpu, String> {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
         backends,
         ..wgpu::InstanceDescriptor::new_without_display_handle()
     });
-    let options =
-        wgpu::RequestAdapterOptions { power_preference: wgpu::PowerPreference::HighPerformance, ..Default::default() };
-    let adapter = instance.request_adapter(&options).await.map_err(|error| error.to_string())?;
+    let adapters = instance.enumerate_adapters(backends).await;
+    let adapter = match adapters.into_iter().find(is_software) {
+        Some(adapter) => adapter,
+        None => instance.request_adapter(&Default::default()).await.map_err(|error| error.to_string())?,
+    };
     let descriptor = wgpu::DeviceDescriptor { label: Some("toile tests"), ..Default::default() };
     let (device, queue) = adapter.request_device(&descriptor).await.map_err(|error| error.to_string())?;
     Ok(Gpu(toile_report::Gpu { device, queue, adapter: adapter.get_info().name }))

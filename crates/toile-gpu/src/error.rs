@@ -19,6 +19,18 @@ pub enum GpuError {
         /// Bytes that the device binds.
         available: u64,
     },
+    /// The device was created with a limit below that of WebGPU.
+    #[error(
+        "the device has {name} {available} but the kernels are made for {needed}, the default of WebGPU; create it with at least that"
+    )]
+    LimitTooLow {
+        /// Name of the limit in WebGPU.
+        name: &'static str,
+        /// WebGPU's default.
+        needed: u32,
+        /// What the device has.
+        available: u32,
+    },
     /// The maps are larger than the device's textures.
     #[error(
         "the maps need {columns} × {rows} texels but this device has textures of at most {available} on a side; use a larger texel"

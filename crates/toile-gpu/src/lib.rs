@@ -5,6 +5,7 @@
 
 mod buffers;
 mod error;
+mod limits;
 mod maps;
 mod moving_body;
 mod plan;

@@ -2,6 +2,7 @@
 
 use crate::GpuError;
 use crate::buffers::uniform_bytes;
+use crate::limits::check_limits;
 use toile_kernels::{render_maps_source, structs};
 use toile_model::MapFrame;
 use toile_scene::Mesh;
@@ -127,8 +128,10 @@ impl BodyMaps {
     /// Empty maps as large as a frame, of bodies at rest or of moving ones.
     ///
     /// # Errors
-    /// [`GpuError::MapTooLarge`] when the frame has more texels on a side than the device's textures.
+    /// [`GpuError::MapTooLarge`] when the frame has more texels on a side than the device's textures, [`GpuError::LimitTooLow`] when the
+    /// device has less than the render pass needs.
     pub fn new(device: &wgpu::Device, frame: MapFrame, moving: bool) -> Result<Self, GpuError> {
+        check_limits(device)?;
         let available = device.limits().max_texture_dimension_2d;
         if frame.columns.max(frame.rows) > available {
             return Err(GpuError::MapTooLarge { columns: frame.columns, rows: frame.rows, available });

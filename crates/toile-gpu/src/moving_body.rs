@@ -1,5 +1,6 @@
 //! A body that moves, on the device: posed whenever the maps are drawn anew.
 
+use crate::limits::check_limits;
 use crate::maps::padded;
 use crate::trail::{dispatch, sized, vertices_uniform};
 use crate::{GpuError, Program, Surface, Trail};
@@ -49,8 +50,9 @@ impl MovingBody {
     /// Uploads a body as it stands at time 0. It has no pose and no velocity before the first [`MovingBody::record_pose`].
     ///
     /// # Errors
-    /// [`GpuError::BufferTooLarge`] when it does not fit the device.
+    /// [`GpuError::BufferTooLarge`] when it does not fit the device, [`GpuError::LimitTooLow`] when the kernels do not.
     pub fn new(device: &wgpu::Device, body: &MovingMesh) -> Result<Self, GpuError> {
+        check_limits(device)?;
         let available = device.limits().max_storage_buffer_binding_size;
         let vertex_count = body.mesh.positions.len() as u32;
         let size = 16 * u64::from(vertex_count);

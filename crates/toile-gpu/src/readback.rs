@@ -1,4 +1,5 @@
-//! Blocking reads of buffers and maps, for tests and for programs that write files. Never in a frame loop.
+//! Blocking reads of buffers and maps, for tests and for programs that write files. Never in a frame loop, and not in a
+//! browser, where nothing can wait.
 
 use crate::{BodyMaps, GpuError};
 use glam::{Vec3, Vec4};

@@ -1,6 +1,7 @@
 //! The solver: records the passes of a plan.
 
 use crate::buffers::{Buffers, DISPATCH_STRIDE, MOVING_UNIFORM_STRIDE, uniform_bytes};
+use crate::limits::check_limits;
 use crate::status::StatusReader;
 use crate::timing::{PassTime, Timer};
 use crate::{BodyMaps, GpuError, Pass, Plan, Program};
@@ -43,13 +44,14 @@ impl Solver {
     /// Builds the pipelines and buffers that the model needs, and nothing else.
     ///
     /// # Errors
-    /// [`GpuError::BufferTooLarge`] when the model does not fit the device.
+    /// [`GpuError::BufferTooLarge`] when the model does not fit the device, [`GpuError::LimitTooLow`] when the kernels do not.
     pub fn new(
         device: &wgpu::Device,
         model: &Model,
         settings: &StepSettings,
         colliders: Colliders<'_>,
     ) -> Result<Self, GpuError> {
+        check_limits(device)?;
         let maps = match colliders.maps {
             None => Maps::None,
             Some(maps) if maps.is_moving() => Maps::Moving,
