@@ -3,7 +3,7 @@
 use toile_kernels::{Binding, Interface, Kernel, Resource};
 
 /// A kernel on a device. Everything it binds comes from the WGSL, by global name.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Program {
     interface: Interface,
     layout: wgpu::BindGroupLayout,

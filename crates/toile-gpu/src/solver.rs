@@ -51,6 +51,33 @@ impl Solver {
         settings: &StepSettings,
         colliders: Colliders<'_>,
     ) -> Result<Self, GpuError> {
+        Self::with_programs(device, model, settings, colliders, |kernel| Program::new(device, kernel))
+    }
+
+    /// A solver of another model, which shares the pipelines of this one: none is compiled that this one has.
+    ///
+    /// # Errors
+    /// As [`Solver::new`].
+    pub fn new_alike(
+        &self,
+        device: &wgpu::Device,
+        model: &Model,
+        settings: &StepSettings,
+        colliders: Colliders<'_>,
+    ) -> Result<Self, GpuError> {
+        Self::with_programs(device, model, settings, colliders, |kernel| match self.programs.get(&kernel) {
+            Some(known) => known.program.clone(),
+            None => Program::new(device, kernel),
+        })
+    }
+
+    fn with_programs(
+        device: &wgpu::Device,
+        model: &Model,
+        settings: &StepSettings,
+        colliders: Colliders<'_>,
+        program: impl Fn(Kernel) -> Program,
+    ) -> Result<Self, GpuError> {
         check_limits(device)?;
         let maps = match colliders.maps {
             None => Maps::None,
@@ -59,8 +86,7 @@ impl Solver {
         };
         let needs = Needs::new(model, settings, maps, colliders.sphere.is_some());
         let plan = Plan::new(model, &needs, settings);
-        let programs: Vec<_> =
-            plan.kernels().into_iter().map(|kernel| (kernel, Program::new(device, kernel))).collect();
+        let programs: Vec<_> = plan.kernels().into_iter().map(|kernel| (kernel, program(kernel))).collect();
         let bindings = programs.iter().flat_map(|(_, program)| &program.interface().bindings);
         let buffers = Buffers::new(device, model, settings, &plan, bindings)?;
         let bound = |(kernel, program): (Kernel, Program)| {

@@ -129,25 +129,28 @@ impl Outfit {
         let mut moving = MovingBody::new(device, body)?;
         moving.record_pose(device, encoder, 0.0);
         let outermost = garments.len().saturating_sub(1);
-        let garments = garments
-            .iter()
-            .enumerate()
-            .map(|(index, (model, settings))| {
-                let steps = settings.steps_per_frame;
-                assert!(maps_per_frame > 0 && steps % maps_per_frame == 0, "{steps} steps, {maps_per_frame} maps");
-                let maps = Arc::new(BodyMaps::new(device, frame.at(0.0), true)?);
-                let colliders = Colliders { maps: Some(maps.clone()), sphere: None };
-                let simulation = Simulation::new(device, model, settings, colliders)?;
-                let drawn = simulation.frame();
-                let seen = (index < outermost).then(|| {
-                    let trail = Trail::new(device, &drawn.positions, drawn.particle_count);
-                    let surface = Surface { velocities: Some(trail.velocities().clone()), ..Surface::from(drawn) };
-                    Seen { surface, trail }
-                });
-                Ok(Garment { simulation, maps, seen })
-            })
-            .collect::<Result<_, Error>>()?;
-        Ok(Self { body: moving, frame, thickness, maps_per_frame, time: 0.0, shown, garments, kept: None })
+        let mut dressed: Vec<Garment> = Vec::new();
+        for (model, settings) in garments {
+            let steps = settings.steps_per_frame;
+            assert!(maps_per_frame > 0 && steps % maps_per_frame == 0, "{steps} steps, {maps_per_frame} maps");
+            let maps = Arc::new(match dressed.last() {
+                None => BodyMaps::new(device, shown, true)?,
+                Some(inner) => inner.maps.new_alike(device),
+            });
+            let colliders = Colliders { maps: Some(maps.clone()), sphere: None };
+            let simulation = match dressed.last() {
+                None => Simulation::new(device, model, settings, colliders)?,
+                Some(inner) => inner.simulation.new_alike(device, model, settings, colliders)?,
+            };
+            let drawn = simulation.frame();
+            let seen = (dressed.len() < outermost).then(|| {
+                let trail = Trail::new(device, &drawn.positions, drawn.particle_count);
+                let surface = Surface { velocities: Some(trail.velocities().clone()), ..Surface::from(drawn) };
+                Seen { surface, trail }
+            });
+            dressed.push(Garment { simulation, maps, seen });
+        }
+        Ok(Self { body: moving, frame, thickness, maps_per_frame, time: 0.0, shown, garments: dressed, kept: None })
     }
 
     /// Draws the maps of a whole round of the body now and keeps them, one every `interval` seconds: frames then copy them instead

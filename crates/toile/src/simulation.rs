@@ -17,6 +17,12 @@ pub struct Colliders {
     pub sphere: Option<Sphere>,
 }
 
+impl Colliders {
+    fn borrowed(&self) -> toile_gpu::Colliders<'_> {
+        toile_gpu::Colliders { maps: self.maps.as_deref(), sphere: self.sphere.clone() }
+    }
+}
+
 /// One cloth, simulated on the caller's device.
 ///
 /// ```no_run
@@ -55,12 +61,23 @@ impl Simulation {
         settings: &StepSettings,
         colliders: Colliders,
     ) -> Result<Self, Error> {
-        let solver = Solver::new(
-            device,
-            model,
-            settings,
-            toile_gpu::Colliders { maps: colliders.maps.as_deref(), sphere: colliders.sphere.clone() },
-        )?;
+        let solver = Solver::new(device, model, settings, colliders.borrowed())?;
+        Ok(Self::with_solver(device, model, solver, colliders))
+    }
+
+    /// A cloth at the start of its model, with the pipelines of this one.
+    pub(crate) fn new_alike(
+        &self,
+        device: &wgpu::Device,
+        model: &Model,
+        settings: &StepSettings,
+        colliders: Colliders,
+    ) -> Result<Self, Error> {
+        let solver = self.solver.new_alike(device, model, settings, colliders.borrowed())?;
+        Ok(Self::with_solver(device, model, solver, colliders))
+    }
+
+    fn with_solver(device: &wgpu::Device, model: &Model, solver: Solver, colliders: Colliders) -> Self {
         let triangles = model.triangles();
         let indices = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("cloth indices"),
@@ -74,7 +91,7 @@ impl Simulation {
             particle_count: model.particle_count(),
             index_count: 3 * triangles.len() as u32,
         };
-        Ok(Self { solver, colliders, frame })
+        Self { solver, colliders, frame }
     }
 
     /// Records one frame into the caller's encoder: its steps, then normals and status. What is recorded counts as done, so an encoder that
@@ -95,7 +112,7 @@ impl Simulation {
         merge: &Merge,
         settings: &StepSettings,
     ) -> Result<Self, Error> {
-        let mut sewn = Self::new(device, model, settings, self.colliders.clone())?;
+        let mut sewn = self.new_alike(device, model, settings, self.colliders.clone())?;
         sewn.solver.record_merge(device, encoder, &self.solver, merge);
         sewn.solver.record_outputs(encoder);
         Ok(sewn)
