@@ -13,7 +13,8 @@ fn limit_status(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workg
         return;
     }
     let elongation = elongation_of(i);
-    if elongation > 0.0 {
+    // Few are longer than what is known already, so few wait for the one word.
+    if elongation > 0.0 && bitcast<u32>(elongation) > atomicLoad(&status.elongation_max) {
         atomicMax(&status.elongation_max, bitcast<u32>(elongation));
     }
     // The threshold along a spring is what its limit allows, by the part of it that limits hold.

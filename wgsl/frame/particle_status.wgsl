@@ -32,7 +32,11 @@ fn particle_status(
             && is_finite(velocity.x) && is_finite(velocity.y) && is_finite(velocity.z);
         let speed_squared = dot(velocity.xyz, velocity.xyz);
         if finite && speed_squared < RUNAWAY_SPEED * RUNAWAY_SPEED {
-            atomicMax(&status.speed_max, bitcast<u32>(sqrt(speed_squared)));
+            let speed = bitcast<u32>(sqrt(speed_squared));
+            // Few are faster than what is known already, so few wait for the one word.
+            if speed > atomicLoad(&status.speed_max) {
+                atomicMax(&status.speed_max, speed);
+            }
             if position.w > 0.0 {
                 energy = 0.5 * (velocity.w * speed_squared);
             }
