@@ -9,7 +9,7 @@ mod support;
 use glam::{DVec2, DVec3, Vec3};
 use std::sync::Arc;
 use std::time::Instant;
-use support::{Bench, median};
+use support::Bench;
 use toile::gpu::{BodyMaps, Surface};
 use toile::model::{MapFrame, Model, StepSettings};
 use toile::scene::{Mesh, Sheet};
@@ -45,9 +45,9 @@ fn measure(bench: &Bench, body: &Mesh) {
     let frame = MapFrame::around([bounds[0] - thickness, bounds[1] + thickness], scene.texel as f32);
     let maps = BodyMaps::new(&bench.device, frame, false).unwrap_or_else(|error| panic!("{error}"));
     let surface = Surface::new(&bench.device, body);
-    let drawing =
-        (0..10).map(|_| run(bench, |encoder| maps.record(&bench.device, encoder, frame, &[(&surface, thickness)])));
-    let drawing = median(drawing.collect());
+    let drawing = (0..10)
+        .map(|_| run(bench, |encoder| maps.record(&bench.device, encoder, frame, &[(&surface, thickness)])))
+        .fold(f64::INFINITY, f64::min);
 
     let sheet = Sheet {
         name: "sheet".to_owned(),
@@ -72,8 +72,8 @@ fn measure(bench: &Bench, body: &Mesh) {
     println!(
         "{:>10} {:>12.1} {:>14.2} {:>18.1} {:>14.1}",
         body.triangles.len(),
-        1e3 * cost.step(),
-        cost.step() / cost.state_copy,
+        1e3 * cost.milliseconds(),
+        cost.milliseconds() / cost.state_copy,
         1e3 * sampling,
         1e3 * drawing,
     );

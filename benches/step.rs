@@ -1,5 +1,5 @@
 //! What one step costs, kernel by kernel, on a square sheet of 64² to 1024² particles: hanging from two corners, and lying
-//! on a sphere. Times are medians in µs, each pass alone; beside them stands the cost in state copies, the time
+//! on a sphere. Times are the least of 20 steps in µs, each pass alone; beside them stands the cost in state copies, the time
 //! of a kernel that reads and writes position and velocity of every particle, which carries over between machines. Then
 //! the bytes per particle.
 //!
@@ -47,7 +47,7 @@ fn measure(bench: &Bench, name: &str, size: u32) {
         println!("  {kernel:<18} {dispatches:>10} {:>12.1} {:>12.2}", 1e3 * ms, ms / cost.state_copy);
     }
     let dispatches: u32 = cost.kernels.iter().map(|(_, dispatches, _)| dispatches).sum();
-    let step = cost.step();
+    let step = cost.milliseconds();
     println!("  {:<18} {dispatches:>10} {:>12.1} {:>12.2}", "step", 1e3 * step, step / cost.state_copy);
 }
 

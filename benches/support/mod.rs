@@ -1,8 +1,7 @@
-//! What the benches share: a device, and the median cost of each kernel.
+//! What the benches share: a device, and what a step costs on it.
 
-use std::collections::BTreeMap;
 use toile::Simulation;
-use toile::gpu::Timer;
+use toile_report::StepCost;
 use toile_workspace::INSTALL_HINT;
 
 /// A device with the limits of its adapter: large sheets need more than the defaults.
@@ -11,14 +10,6 @@ pub struct Bench {
     pub device: wgpu::Device,
     /// Its queue.
     pub queue: wgpu::Queue,
-}
-
-/// What one step costs.
-pub struct StepCost {
-    /// Name, dispatches per step and time [ms] of each kernel, in the order of the algorithm.
-    pub kernels: Vec<(&'static str, u32, f64)>,
-    /// Time of a copy of the whole state [ms].
-    pub state_copy: f64,
 }
 
 impl Bench {
@@ -46,35 +37,8 @@ impl Bench {
         })
     }
 
-    /// The median over some steps, after one that warms up.
+    /// What a step of a simulation costs.
     pub fn step_cost(&self, simulation: &mut Simulation, steps: usize) -> StepCost {
-        let timer = Timer::new(&self.device, &self.queue).expect("the device answers");
-        let mut samples: BTreeMap<_, Vec<f64>> = BTreeMap::new();
-        let mut dispatches = BTreeMap::new();
-        for step in 0..=steps {
-            let times = simulation.time_step(&self.device, &self.queue, &timer).expect("the device answers");
-            for (kernel, time) in times {
-                dispatches.insert(kernel, time.dispatches);
-                if step > 0 {
-                    samples.entry(kernel).or_default().push(time.milliseconds);
-                }
-            }
-        }
-        let all = samples.into_iter().map(|(kernel, times)| (kernel.name(), dispatches[&kernel], median(times)));
-        let (copies, kernels): (Vec<_>, Vec<_>) = all.partition(|(name, ..)| *name == "state_copy");
-        StepCost { kernels, state_copy: copies[0].2 }
+        StepCost::of(&self.device, &self.queue, simulation, steps).expect("the device answers")
     }
-}
-
-impl StepCost {
-    /// Time of a step [ms].
-    pub fn step(&self) -> f64 {
-        self.kernels.iter().map(|(_, _, ms)| ms).sum()
-    }
-}
-
-/// The middle value.
-pub fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }

@@ -187,12 +187,62 @@ fn go_to_start(
 /// Walks, frame by frame, and says which part of a step goes to the bodies.
 fn simulate(walk: &Walk, gpu: &Gpu, walkers: &[Walker], saved: &Saved, running: &Running) -> Result<f64> {
     let seconds = 1.0 / walk.settings.frame_rate;
-    let steps = walkers[0].settings.steps_per_frame;
-    let maps_per_frame = maps_per_frame(steps, walk.settings.frame_rate);
+    let maps_per_frame = maps_per_frame(walkers[0].settings.steps_per_frame, walk.settings.frame_rate);
     let done = saved.frame_count() - 1;
-    let texel = walk.settings.texel as f32;
+    let mut outfit = start(walk, gpu, walkers, saved, running, maps_per_frame)?;
+    let regions = Regions::new(&walk.body);
+    let stage = Stage::new(&walk.body, f64::from(walk.frame_count) * seconds);
+    std::fs::create_dir_all(&running.out)?;
+    let progress = progress(walk.frame_count, done, running.quiet);
+    let mut last = vec![Status::default(); walkers.len()];
+    for frame in done + 1..=walk.frame_count {
+        interrupt::check().context(KEPT)?;
+        let [before, time] = [frame - 1, frame].map(|frame| f64::from(frame) * seconds);
+        let [maps_ms, simulated_ms] = advance(gpu, &mut outfit, before, seconds, maps_per_frame)?;
+        let output = Instant::now();
+        let body = walk.body.at(time);
+        let (exact, mut inner) = (ExactDistance::new(&body), Vec::new());
+        let mut row = FrameRow::new(frame, time, maps_ms, simulated_ms);
+        let (mut states, mut cloths) = (Vec::new(), Vec::new());
+        for ((simulation, walker), last) in outfit.garments_mut().zip(walkers).zip(&mut last) {
+            let status = status(simulation)?;
+            row.add_polish(last, &status);
+            *last = status;
+            let state = GarmentState::download(gpu, simulation)?;
+            let (thickness, texel) = (walk.settings.fabric.thickness, walk.settings.texel as f32);
+            row.add(&walker.model, &state, &status, &exact, &inner, &body, &regions, thickness, texel);
+            let normals = readback::read_vec4s(&gpu.device, &gpu.queue, &simulation.frame().normals)?;
+            let normals = normals.into_iter().map(|normal| normal.truncate()).collect();
+            let mesh = Mesh { positions: state.positions(), normals, triangles: walker.triangles.clone() };
+            states.push(state);
+            if states.len() < walkers.len() {
+                inner.push(ExactDistance::new(&mesh));
+            }
+            cloths.push(mesh);
+        }
+        let views = draw(&body, &cloths, walk.settings.fabric.thickness, stage.at(time))?;
+        picture::save_png(&picture_path(&running.out, frame), &picture::strip(&views))?;
+        row.output_ms = 1e3 * output.elapsed().as_secs_f64();
+        saved.write(frame, &states, Some(&row))?;
+        progress.inc(1);
+    }
+    progress.finish();
+    collision_part(gpu, &mut outfit)
+}
+
+/// The outfit as it was at the end of the last frame that is kept.
+fn start(
+    walk: &Walk,
+    gpu: &Gpu,
+    walkers: &[Walker],
+    saved: &Saved,
+    running: &Running,
+    maps_per_frame: u32,
+) -> Result<Outfit> {
+    let seconds = 1.0 / walk.settings.frame_rate;
     let garments: Vec<_> = walkers.iter().map(|walker| (&walker.model, walker.settings.clone())).collect();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    let texel = walk.settings.texel as f32;
     let mut outfit = Outfit::new(&gpu.device, &mut encoder, &walk.body, &garments, texel, maps_per_frame)?;
     if walk.precompute_maps {
         let interval = seconds / f64::from(maps_per_frame);
@@ -208,60 +258,27 @@ fn simulate(walk: &Walk, gpu: &Gpu, walkers: &[Walker], saved: &Saved, running: 
             print(&format!("the maps of a round take {:.0} MiB", bytes as f64 / f64::from(1 << 20)))?;
         }
     }
+    let done = saved.frame_count() - 1;
     outfit.record_start(&gpu.device, &mut encoder, f64::from(done) * seconds);
     gpu.queue.submit([encoder.finish()]);
-    let states = saved.read(done)?;
-    for ((simulation, walker), state) in outfit.garments().zip(walkers).zip(&states) {
+    for ((simulation, walker), state) in outfit.garments().zip(walkers).zip(&saved.read(done)?) {
         state.upload(gpu, simulation, &walker.model)?;
     }
-    let regions = Regions::new(&walk.body);
-    let stage = Stage::new(&walk.body, f64::from(walk.frame_count) * seconds);
-    std::fs::create_dir_all(&running.out)?;
-    let progress = progress(walk.frame_count, done, running.quiet);
-    let mut last = vec![Status::default(); walkers.len()];
-    for frame in done + 1..=walk.frame_count {
-        interrupt::check().context(KEPT)?;
-        let start = Instant::now();
-        let time = f64::from(frame - 1) * seconds;
-        let interval = seconds / f64::from(maps_per_frame);
-        let mut maps_ms = 0.0;
-        for index in 0..maps_per_frame {
-            let next = time + interval * f64::from(index + 1);
-            maps_ms += timed(gpu, |encoder| outfit.record_pose(&gpu.device, encoder, next))?;
-            timed(gpu, |encoder| outfit.record_steps(&gpu.device, encoder, interval))?;
-        }
-        timed(gpu, |encoder| outfit.record_outputs(encoder))?;
-        let simulated_ms = 1e3 * start.elapsed().as_secs_f64() - maps_ms;
-        let output = Instant::now();
-        let mut row = FrameRow::new(frame, f64::from(frame) * seconds, maps_ms, simulated_ms);
-        let mut states = Vec::new();
-        let body = walk.body.at(f64::from(frame) * seconds);
-        let exact = ExactDistance::new(&body);
-        let (mut cloths, mut inner) = (Vec::new(), Vec::new());
-        for ((simulation, walker), last) in outfit.garments_mut().zip(walkers).zip(&mut last) {
-            let status = status(simulation)?;
-            row.add_polish(last, &status);
-            *last = status;
-            let state = GarmentState::download(gpu, simulation)?;
-            let normals = readback::read_vec4s(&gpu.device, &gpu.queue, &simulation.frame().normals)?;
-            let thickness = walk.settings.fabric.thickness;
-            row.add(&walker.model, &state, &status, &exact, &inner, &body, &regions, thickness, texel);
-            let normals: Vec<Vec3> = normals.into_iter().map(|normal| normal.truncate()).collect();
-            let mesh = Mesh { positions: state.positions(), normals, triangles: walker.triangles.clone() };
-            states.push(state);
-            if states.len() < walkers.len() {
-                inner.push(ExactDistance::new(&mesh));
-            }
-            cloths.push(mesh);
-        }
-        let views = draw(&body, &cloths, walk.settings.fabric.thickness, stage.at(f64::from(frame) * seconds))?;
-        picture::save_png(&picture_path(&running.out, frame), &picture::strip(&views))?;
-        row.output_ms = 1e3 * output.elapsed().as_secs_f64();
-        saved.write(frame, &states, Some(&row))?;
-        progress.inc(1);
+    Ok(outfit)
+}
+
+/// Goes on by a frame of `seconds` from a time [s]; how long poses and maps took, and the steps [ms].
+fn advance(gpu: &Gpu, outfit: &mut Outfit, time: f64, seconds: f64, maps_per_frame: u32) -> Result<[f64; 2]> {
+    let start = Instant::now();
+    let interval = seconds / f64::from(maps_per_frame);
+    let mut maps_ms = 0.0;
+    for index in 1..=maps_per_frame {
+        let next = time + interval * f64::from(index);
+        maps_ms += timed(gpu, |encoder| outfit.record_pose(&gpu.device, encoder, next))?;
+        timed(gpu, |encoder| outfit.record_steps(&gpu.device, encoder, interval))?;
     }
-    progress.finish();
-    collision_part(gpu, &mut outfit)
+    timed(gpu, |encoder| outfit.record_outputs(encoder))?;
+    Ok([maps_ms, 1e3 * start.elapsed().as_secs_f64() - maps_ms])
 }
 
 /// Which part of one more step of every garment goes to the bodies [1]: each pass is timed alone.

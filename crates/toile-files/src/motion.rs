@@ -1,7 +1,7 @@
 //! The motion of garments as files that Blender and Houdini open: USD text and PC2 point caches.
 
 use crate::error::{Fault, FileError, Found};
-use crate::write::make_readable;
+use crate::write::temporary_beside;
 use glam::Vec3;
 use std::io::{BufWriter, Write};
 use std::path::Path;
@@ -84,8 +84,7 @@ fn write_streamed<E: From<FileError>>(
     write: impl FnOnce(&mut dyn Write) -> Result<(), Failure<E>>,
 ) -> Result<(), E> {
     let refuse = |error| E::from(Found::from(Fault::Unwritable(error)).in_file(path));
-    let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
-    let file = tempfile::NamedTempFile::new_in(folder).map_err(refuse)?;
+    let file = temporary_beside(path).map_err(refuse)?;
     let mut out = BufWriter::new(file);
     write(&mut out).map_err(|failure| match failure {
         Failure::Io(error) => refuse(error),
@@ -93,7 +92,6 @@ fn write_streamed<E: From<FileError>>(
         Failure::Found(found) => found.in_file(path).into(),
     })?;
     let file = out.into_inner().map_err(|error| refuse(error.into_error()))?;
-    make_readable(file.as_file()).map_err(refuse)?;
     file.persist(path).map_err(|error| refuse(error.error))?;
     Ok(())
 }

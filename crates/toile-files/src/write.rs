@@ -12,27 +12,19 @@ use toile_scene::Mesh;
 /// [`FileError`] when the operating system refuses.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let refuse = |error| Found::from(Fault::Unwritable(error)).in_file(path);
-    let folder = match path.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
-    };
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(refuse)?;
+    let mut file = temporary_beside(path).map_err(refuse)?;
     file.write_all(bytes).map_err(refuse)?;
-    make_readable(file.as_file()).map_err(refuse)?;
     file.persist(path).map_err(|error| refuse(error.error))?;
     Ok(())
 }
 
-/// Temporary files belong to their owner alone; what is written for others to see must not.
-#[cfg(unix)]
-pub(crate) fn make_readable(file: &std::fs::File) -> std::io::Result<()> {
-    use std::os::unix::fs::PermissionsExt;
-    file.set_permissions(std::fs::Permissions::from_mode(0o644))
-}
-
-#[cfg(not(unix))]
-pub(crate) fn make_readable(_: &std::fs::File) -> std::io::Result<()> {
-    Ok(())
+/// A temporary file beside a path, with the rights of any new file; by default they are private.
+pub(crate) fn temporary_beside(path: &Path) -> std::io::Result<tempfile::NamedTempFile> {
+    let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder)
 }
 
 /// Writes a mesh as OBJ [m] with normals.

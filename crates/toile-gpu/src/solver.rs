@@ -45,6 +45,9 @@ impl Solver {
     ///
     /// # Errors
     /// [`GpuError::BufferTooLarge`] when the model does not fit the device, [`GpuError::LimitTooLow`] when the kernels do not.
+    ///
+    /// # Panics
+    /// As [`Needs::new`].
     pub fn new(
         device: &wgpu::Device,
         model: &Model,

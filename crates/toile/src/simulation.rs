@@ -54,7 +54,11 @@ impl Simulation {
     /// A cloth at the start of its model.
     ///
     /// # Errors
-    /// [`Error::Gpu`] when the model does not fit the device.
+    /// [`Error::Gpu`] when the model does not fit the device, or the device has less than the default limits of WebGPU.
+    ///
+    /// # Panics
+    /// When the settings have the rule [`Rule::Hierarchical`](toile_scene::Rule::Hierarchical) and the model was made for another one, or a polish
+    /// under a rule that knows none.
     pub fn new(
         device: &wgpu::Device,
         model: &Model,

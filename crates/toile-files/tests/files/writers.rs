@@ -98,3 +98,15 @@ fn a_file_is_replaced_as_a_whole() {
     let error = write_atomically(&folder.path().join("none/a.txt"), b"x").expect_err("no folder");
     assert!(error.to_string().contains("none/a.txt: it cannot be written: No such file"), "{error}");
 }
+
+/// Temporary files are private by default; results are for others too, as far as the user's umask lets them.
+#[cfg(unix)]
+#[test]
+fn a_file_has_the_rights_of_any_new_one() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().expect("a folder");
+    let rights = |name: &str| fs::metadata(folder.path().join(name)).expect("it is there").permissions().mode();
+    fs::write(folder.path().join("plain"), b"1").expect("written");
+    write_atomically(&folder.path().join("whole"), b"1").expect("written");
+    assert_eq!(rights("whole"), rights("plain"));
+}

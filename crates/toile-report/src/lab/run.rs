@@ -146,17 +146,32 @@ impl Run {
         Ok(elongations)
     }
 
-    /// The least cost of each kernel over some steps, after one that warms up: what else the machine does only ever adds. The run goes on
-    /// by these steps, so call it last.
+    /// What a step costs; see [`StepCost::of`].
     ///
     /// # Errors
     /// [`LabError::Toile`] when the device is lost.
     pub fn cost(&mut self, lab: &Lab, steps: usize) -> Result<StepCost, LabError> {
-        let timer = Timer::new(&lab.device, &lab.queue)?;
+        Ok(StepCost::of(&lab.device, &lab.queue, &mut self.simulation, steps)?)
+    }
+}
+
+impl StepCost {
+    /// The least cost of each kernel over some steps of a simulation, after one that warms up: what else the machine does only ever adds. The
+    /// simulation goes on by these steps, so measure last.
+    ///
+    /// # Errors
+    /// [`toile::Error::Gpu`] when the device is lost.
+    pub fn of(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        simulation: &mut Simulation,
+        steps: usize,
+    ) -> Result<Self, toile::Error> {
+        let timer = Timer::new(device, queue)?;
         let mut least = BTreeMap::new();
         let mut dispatches = BTreeMap::new();
         for step in 0..=steps {
-            for (kernel, time) in self.simulation.time_step(&lab.device, &lab.queue, &timer)? {
+            for (kernel, time) in simulation.time_step(device, queue, &timer)? {
                 dispatches.insert(kernel, time.dispatches);
                 if step > 0 {
                     let least: &mut f64 = least.entry(kernel).or_insert(f64::INFINITY);
@@ -166,11 +181,9 @@ impl Run {
         }
         let all = least.into_iter().map(|(kernel, milliseconds)| (kernel.name(), dispatches[&kernel], milliseconds));
         let (copies, kernels): (Vec<_>, Vec<_>) = all.partition(|(name, ..)| *name == "state_copy");
-        Ok(StepCost { kernels, state_copy: copies.first().map_or(0.0, |(.., milliseconds)| *milliseconds) })
+        Ok(Self { kernels, state_copy: copies.first().map_or(0.0, |(.., milliseconds)| *milliseconds) })
     }
-}
 
-impl StepCost {
     /// Time of a step [ms].
     pub fn milliseconds(&self) -> f64 {
         self.kernels.iter().map(|(_, _, milliseconds)| milliseconds).sum()
