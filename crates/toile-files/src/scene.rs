@@ -122,9 +122,6 @@ fn settings(toml: &SceneToml, folder: &Path) -> Result<Settings, Problem> {
         RuleToml::Predictive => Rule::Predictive,
         RuleToml::Hierarchical => Rule::Hierarchical,
     });
-    if toml.sweeps == Some(0) {
-        return Err(wrong("sweeps", "it must be at least 1; rule = \"none\" turns it off").into());
-    }
     let sweeps = toml.sweeps.map(|sweeps| within("sweeps", sweeps, VelocityModification::SWEEPS, "")).transpose()?;
     let polish = toml.polish.map(|polish| convert_polish(polish, rule)).transpose()?;
     let friction = match toml.friction {

@@ -22,12 +22,8 @@ pub(crate) fn convert_body(index: usize, toml: &BodyToml, folder: &Path) -> Resu
         Some(UnitsToml::Mm) => 0.001,
         Some(UnitsToml::In) => 0.0254,
     };
-    let options = BodyOptions { metres_per_unit, clip: toml.clip.clone(), time: toml.time.unwrap_or(0.0) };
-    if !options.time.is_finite() {
-        return Err(
-            wrong(&key("time"), format!("it is {} and must be a time in the clip in seconds", options.time)).into()
-        );
-    }
+    let time = within(&key("time"), toml.time.unwrap_or(0.0), -DURATION_MAX..=DURATION_MAX, "s")?;
+    let options = BodyOptions { metres_per_unit, clip: toml.clip.clone(), time };
     let moving = toml.moving == Some(true);
     let needless = |name: &str, present: bool, why: &str| {
         if present { Err(wrong(&key(name), why)) } else { Ok(()) }

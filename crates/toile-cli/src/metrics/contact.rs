@@ -84,3 +84,27 @@ impl Surfaces {
         Some(Contact { penetration_max, penetration_p99, false_fraction })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{Vec3, dvec3};
+
+    #[test]
+    fn what_lies_on_an_inner_garment_is_not_far() {
+        let panel = Mesh {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+            normals: vec![Vec3::Z; 3],
+            triangles: vec![[0, 1, 2]],
+        };
+        let garments = [ExactDistance::new(&panel)];
+        let reach = reach(0.003, 0.005);
+        assert!((reach - 0.013).abs() < 1e-9, "{reach}");
+        let far_from_bodies = -0.1;
+        for (z, far) in [(0.01, false), (-0.01, false), (0.02, true), (-0.02, true)] {
+            assert_eq!(is_far(dvec3(0.2, 0.2, z), far_from_bodies, &garments, reach), far, "{z} m from the garment");
+        }
+        assert!(is_far(dvec3(0.2, 0.2, 0.01), far_from_bodies, &[], reach), "without the garment");
+        assert!(!is_far(dvec3(0.2, 0.2, 0.02), -0.01, &garments, reach), "near a body");
+    }
+}

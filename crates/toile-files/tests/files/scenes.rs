@@ -199,7 +199,7 @@ fn wrong_overrides_name_the_key_and_what_there_is() {
     hang.toml, key "sheet.0.pins.0": [64, 0] is outside of the sheet of 64 × 64
     hang.toml, key "sheet.0.pins": a pin is [column, row], "top_left", "top_right", "bottom_left" or "bottom_right"
     hang.toml, key "frames": it must be at least 1
-    hang.toml, key "sweeps": it must be at least 1; rule = "none" turns it off
+    hang.toml, key "sweeps": it is 0 and must be 1 to 64
     hang.toml, key "sweeps": it is 4000000000 and must be 1 to 64
     hang.toml, key "spacing": it is 0.000000001 and must be 0.001 to 0.1 m
     hang.toml, key "texel": it is 0.000000000000000000000000000000000000000000000000000000000001 and must be 0.0005 to 0.05 m
@@ -347,6 +347,7 @@ fn motions_that_contradict_themselves_name_the_key() {
         format!("{file}sequence = \"frames\"\n"),
         format!("{file}frame_rate = 30\n"),
         format!("{file}moving = true\ntime = 1\n"),
+        format!("{file}time = nan\n"),
         format!("{file}moving = true\nkeys = []\n"),
         format!("{file}moving = true\n"),
         format!("{file}keys = []\n"),
@@ -381,6 +382,7 @@ fn motions_that_contradict_themselves_name_the_key() {
     scene.toml, key "body.0.sequence": give either file or sequence, not both
     scene.toml, key "body.0.frame_rate": only a sequence has it; a clip has times of its own
     scene.toml, key "body.0.time": a moving body starts its clip at 0; leave it out
+    scene.toml, key "body.0.time": it is NaN and must be -3600 to 3600 s
     scene.toml, key "body.0.keys": give either moving = true or keys, not both
     body.obj: the motion of a .obj file, which has none (a .gltf or .glb file can have clips), cannot be read
     scene.toml, key "body.0.keys": it has no key; leave it out for a body at rest
