@@ -326,7 +326,7 @@ fn an_outer_garment_lies_over_an_inner_one_by_the_reference_too() {
     assert_eq!(metrics["cloths"].as_array().map(Vec::len), Some(2));
 }
 
-/// A walk that ctrl-c ended goes on and ends in the same bytes as one that was never interrupted.
+/// A walk of two garments that ctrl-c ended goes on and ends in the same bytes as one that was never interrupted.
 #[cfg(target_os = "linux")]
 #[test]
 fn an_interrupted_walk_goes_on_bit_for_bit() {
@@ -336,9 +336,22 @@ fn an_interrupted_walk_goes_on_bit_for_bit() {
     let journey = Journey::new();
     let skirt = journey.folder.path().join("skirt.json");
     fs::copy(fixture("garments/skirt.json"), &skirt).expect("copied");
+    let shirt = fixture("garments/shirt_sleeveless.json");
     let walk = |out: &'static str, more: &[&'static str]| {
-        let options =
-            ["walk", "--garment", "skirt.json", "--spacing", "4cm", "--texel", "1cm", "--seconds", "0.2", "--quiet"];
+        let options = [
+            "walk",
+            "--garment",
+            "skirt.json",
+            "--garment",
+            &shirt,
+            "--spacing",
+            "5cm",
+            "--texel",
+            "1cm",
+            "--seconds",
+            "0.2",
+            "--quiet",
+        ];
         journey.command(&[&options[..], &["--out", out], more].concat())
     };
     good(walk("whole", &[]).output().expect("the program runs"));
@@ -363,7 +376,7 @@ fn an_interrupted_walk_goes_on_bit_for_bit() {
     fs::copy(fixture("garments/skirt.json"), &skirt).expect("copied");
 
     good(walk("halves", &["--resume"]).output().expect("the program runs"));
-    for file in ["walk.usda", "0_skirt.pc2", "walk.gif", "walk.png", "frame_0006.png"] {
+    for file in ["walk.usda", "0_skirt.pc2", "1_shirt_sleeveless.pc2", "walk.gif", "walk.png", "frame_0006.png"] {
         let [whole, halves] = ["whole", "halves"].map(|folder| fs::read(journey.folder.path().join(folder).join(file)));
         assert!(whole.expect("it was written") == halves.expect("it was written"), "{file} differs");
     }
@@ -378,7 +391,7 @@ fn an_interrupted_walk_goes_on_bit_for_bit() {
         assert!(row["penetration_max_mm"].as_f64().is_some_and(|depth| depth < 10.0), "{row}");
         assert!(row["penetration_p99_mm"].as_f64().is_some_and(|depth| depth < 2.0), "{row}");
     }
-    assert_eq!(journey.names("whole").len(), 11, "six frames, a strip, a GIF, USD, PC2 and metrics");
+    assert_eq!(journey.names("whole").len(), 12, "six frames, a strip, a GIF, USD, two PC2 and metrics");
 }
 
 #[test]
