@@ -4,4 +4,5 @@ mod friction;
 mod laws;
 mod polish;
 mod stability;
+mod strain;
 mod wind;
