@@ -1,11 +1,14 @@
 //! What is measured of a run: `metrics.json`.
 
 mod contact;
+mod frames;
 mod measures;
 
 pub use contact::{Surfaces, is_far, reach};
+pub use frames::StrainRow;
 pub use measures::{Measures, max_and_p99};
 
+use crate::worn::Worn;
 use serde::Serialize;
 
 /// What is measured of a run. The names are stable.
@@ -30,6 +33,8 @@ pub struct ClothMetrics {
     /// What is measured.
     #[serde(flatten)]
     pub measures: Measures,
+    /// How far it was stretched at the end of each frame of the run, or of draping.
+    pub frames: Vec<StrainRow>,
 }
 
 impl Metrics {
@@ -41,6 +46,12 @@ impl Metrics {
 }
 
 impl ClothMetrics {
+    /// Measures a cloth against the surfaces that it lies over; `texel` is that of their maps [m].
+    pub fn new(worn: &Worn, surfaces: &Surfaces, texel: f32) -> Self {
+        let measures = Measures::new(worn, surfaces, texel);
+        Self { name: worn.name.clone(), measures, frames: StrainRow::all(worn) }
+    }
+
     /// The cloth on one line, for the terminal.
     pub fn line(&self) -> String {
         let m = &self.measures;

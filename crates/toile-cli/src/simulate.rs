@@ -4,7 +4,7 @@ use crate::adapter;
 use crate::args::{Backend, Running};
 use crate::commands::print;
 use crate::engine::{Computer, Layer};
-use crate::metrics::{ClothMetrics, Measures, Metrics, Surfaces};
+use crate::metrics::{ClothMetrics, Metrics, Surfaces};
 use crate::output::{self, Shown};
 use crate::sphere_mesh::sphere_mesh;
 use crate::worn::{self, Surroundings, Worn};
@@ -44,7 +44,7 @@ pub fn simulate(file: &SceneFile, running: &Running) -> Result<()> {
                 worn::run(&sheet.name, model, file.frames, &scene.settings, &around)?
             }
         };
-        measured.push(ClothMetrics { name: worn.name.clone(), measures: Measures::new(&worn, &surfaces, texel) });
+        measured.push(ClothMetrics::new(&worn, &surfaces, texel));
         if all.len() + 1 < scene.cloths.len() {
             surfaces.add_garment(&worn.mesh);
             layers.push(Layer { mesh: worn.mesh.clone(), thickness });

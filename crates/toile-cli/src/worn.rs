@@ -43,6 +43,8 @@ pub struct Worn {
 pub struct Log {
     /// Largest elongation at the end of any frame [1].
     pub elongation_max: f32,
+    /// At the end of each frame of the run, or of draping.
+    pub statuses: Vec<Status>,
     step_ms: Vec<f64>,
 }
 
@@ -103,15 +105,15 @@ pub fn dress(garment: &Garment, settings: &Settings, around: &Surroundings<'_>) 
     }
     let sewn_settings = step.draping();
     engine = engine.sewn(&sewn, &Merge::identity(sewn.particle_count()), &sewn_settings)?;
-    let mut status = Status::default();
     while dressing.stage() == Stage::Draping {
-        status = log.frame(&mut engine, &sewn_settings)?;
+        let status = log.frame(&mut engine, &sewn_settings)?;
+        log.statuses.push(status);
         let energy = status.kinetic_energy / sewn.particle_count() as f32;
         progress.say(format!("draping, step {}, {energy:.1e} J per particle", status.step));
         dressing.advance(&status, sewn.particle_count()).with_context(|| format!("garment {}", garment.name))?;
     }
     progress.finish(format!("dressed in {} + {} steps", dressing.sewing_steps(), dressing.draping_steps()));
-    let mut worn = finish(&garment.name, sewn, sewn_settings, engine, status, log)?;
+    let mut worn = finish(&garment.name, sewn, sewn_settings, engine, log)?;
     worn.sewing_steps = dressing.sewing_steps();
     worn.draping_steps = dressing.draping_steps();
     worn.seam_gap = dressing.seam_gap();
@@ -123,24 +125,18 @@ pub fn run(name: &str, model: Model, frames: u32, settings: &Settings, around: &
     let settings = step_settings(name, settings, &model)?;
     let mut engine = around.computer.start(&model, &settings, around.layers, around.sphere.clone(), around.texel)?;
     let mut log = Log::default();
-    let mut status = Status::default();
     let progress = Progress::new(name, around.quiet);
     for frame in 1..=frames {
-        status = log.frame(&mut engine, &settings)?;
+        let status = log.frame(&mut engine, &settings)?;
+        log.statuses.push(status);
         progress.say(format!("frame {frame} of {frames}, elongation {:.3}", status.elongation_max));
     }
     progress.finish(format!("{frames} frames of {} steps", settings.steps_per_frame));
-    finish(name, model, settings, engine, status, log)
+    finish(name, model, settings, engine, log)
 }
 
-fn finish(
-    name: &str,
-    model: Model,
-    settings: StepSettings,
-    mut engine: Engine<'_>,
-    status: Status,
-    log: Log,
-) -> Result<Worn> {
+fn finish(name: &str, model: Model, settings: StepSettings, mut engine: Engine<'_>, log: Log) -> Result<Worn> {
+    let status = log.statuses.last().copied().unwrap_or_default();
     let State { positions, normals, touching } = engine.state()?;
     Ok(Worn {
         name: name.to_owned(),

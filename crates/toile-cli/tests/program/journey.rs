@@ -92,6 +92,34 @@ fn dispatches(kernels: &Value, key: &str) -> Vec<(String, u64)> {
     pairs
 }
 
+/// Limits of single springs, which a swing stretches beyond their threshold, and a polish that is too short for it.
+#[test]
+fn every_frame_of_a_run_has_its_strain() {
+    let journey = Journey::new();
+    let polish = "polish={ target = 0.05, sweeps = 1 }";
+    let options = ["--set", "n=16", "--set", "frames=30", "--set", "rule=predictive", "--set", polish, "--json"];
+    let metrics = json(&good(journey.run(&[&["run", &fixture("scenes/hang.toml")], &options[..]].concat())));
+    let cloth = &metrics["cloths"][0];
+    let frames = list(&cloth["frames"]);
+    let number = |row: &Value, name: &str| row[name].as_f64().unwrap_or_else(|| panic!("{name} of {row}"));
+    assert_eq!(frames.len(), 30);
+    for (index, row) in (1..).zip(frames) {
+        assert_eq!(row["frame"], index);
+        assert!((number(row, "time_s") - f64::from(index) / 60.0).abs() < 1e-6, "{row}");
+        assert_eq!(row["longest_spring"].is_array(), number(row, "elongation_max") > 0.0, "{row}");
+        assert_eq!(number(row, "over_long_count") > 0.0, number(row, "elongation_max") > 0.05, "{row}");
+    }
+    let most = frames.iter().map(|row| number(row, "elongation_max")).fold(0.0, f64::max);
+    assert_eq!(most, number(cloth, "elongation_max_over_run"));
+    assert!(frames.iter().any(|row| number(row, "over_long_count") > 0.0));
+    for name in ["further_sweeps", "missed_steps"] {
+        let counts: Vec<f64> = frames.iter().map(|row| number(row, name)).collect();
+        assert_eq!(counts[0], 0.0, "{name}: it only begins to fall");
+        assert!(counts.iter().filter(|count| **count > 0.0).count() > 1, "{name}: {counts:?}");
+        assert_eq!(counts.iter().sum::<f64>(), number(cloth, name), "{name}");
+    }
+}
+
 #[test]
 fn the_gpu_and_the_reference_measure_the_same() {
     for scene in ["hang", "ball"] {
