@@ -14,7 +14,7 @@ use toile::gpu::{BodyMaps, Surface};
 use toile::model::{MapFrame, Model, StepSettings};
 use toile::scene::{Mesh, Sheet};
 use toile::{Colliders, Simulation};
-use toile_workspace::{sheet_settings, uv_sphere};
+use toile_workspace::sheet_settings;
 
 /// Parallels of the ellipsoids; the triangles are 4·count².
 const PARALLELS: [u32; 3] = [16, 82, 164];
@@ -91,7 +91,7 @@ fn run(bench: &Bench, record: impl FnOnce(&mut wgpu::CommandEncoder)) -> f64 {
 
 /// An ellipsoid of meridians and parallels.
 fn ellipsoid(parallels: u32) -> Mesh {
-    let sphere = uv_sphere(Vec3::ZERO, 1.0, parallels);
+    let sphere = Mesh::sphere(Vec3::ZERO, 1.0, parallels);
     Mesh {
         positions: sphere.positions.iter().map(|p| *p * HALF_AXES).collect(),
         normals: sphere.normals.iter().map(|n| (*n / HALF_AXES).normalize()).collect(),

@@ -4,7 +4,8 @@ use glam::{DVec3, Vec3};
 use toile::{Colliders, Simulation};
 use toile_gpu::Solver;
 use toile_model::{Merge, Model, StepSettings};
-use toile_workspace::{Layers, advance, arrived, finish_frame, garment, gpu, settings, uv_sphere};
+use toile_scene::Mesh;
+use toile_workspace::{Layers, advance, arrived, finish_frame, garment, gpu, settings};
 
 /// The skirt, its models and the steps of both.
 struct Skirt {
@@ -116,8 +117,8 @@ fn a_cloth_can_be_drawn_into_the_maps_of_the_next_one() {
     let mut simulation =
         Simulation::new(&gpu().device, &skirt.open, &skirt.sewing, Default::default()).expect("it fits the device");
     advance(&mut simulation).expect("it stays finite");
-    let empty =
-        Layers::draw(gpu(), &[(&uv_sphere(Vec3::new(0.0, 0.9, 0.0), 0.5, 8), 0.0)], 0.02).expect("the device answers");
+    let empty = Layers::draw(gpu(), &[(&Mesh::sphere(Vec3::new(0.0, 0.9, 0.0), 0.5, 8), 0.0)], 0.02)
+        .expect("the device answers");
     let drawn = |maps: &toile_gpu::BodyMaps| {
         let depth = toile_gpu::readback::read_depth(&gpu().device, &gpu().queue, maps).expect("the device answers");
         depth[0].iter().filter(|depth| **depth < 1.0).count()

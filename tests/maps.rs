@@ -7,7 +7,7 @@ use toile_model::{MapFrame, Model, StepSettings};
 use toile_reference::ExactDistance;
 use toile_reference::maps::{BodyMaps, Surface, render_maps};
 use toile_scene::{Mesh, Rule, VelocityModification};
-use toile_workspace::{Layers, body, box_mesh, gpu, scene, sheet_model, uv_sphere, without_triangles};
+use toile_workspace::{Layers, body, gpu, scene, sheet_model, without_triangles};
 
 const TEXEL: f32 = 0.005;
 const THICKNESS: f32 = 0.004;
@@ -77,8 +77,8 @@ fn bodies() -> Vec<(&'static str, Mesh)> {
     let woman = body();
     let hole = |centre: Vec3| centre.z > 0.0 && centre.distance(vec3(0.0, 1.2, 0.0)) < 0.25;
     vec![
-        ("sphere", uv_sphere(vec3(0.1, 1.0, 0.0), 0.3, 32)),
-        ("box", box_mesh(vec3(-0.2, 0.1, -0.1), vec3(0.23, 0.5, 0.2))),
+        ("sphere", Mesh::sphere(vec3(0.1, 1.0, 0.0), 0.3, 32)),
+        ("box", Mesh::cuboid(vec3(-0.2, 0.1, -0.1), vec3(0.23, 0.5, 0.2))),
         ("body with holes", without_triangles(&woman, hole)),
         ("body", woman),
     ]
@@ -98,7 +98,8 @@ fn the_device_draws_what_the_reference_casts() {
 
 #[test]
 fn several_surfaces_share_the_maps() {
-    let [ball, block] = [uv_sphere(vec3(0.0, 0.2, 0.0), 0.2, 24), box_mesh(vec3(-0.3, 0.0, 0.0), vec3(0.0, 0.2, 0.3))];
+    let [ball, block] =
+        [Mesh::sphere(vec3(0.0, 0.2, 0.0), 0.2, 24), Mesh::cuboid(vec3(-0.3, 0.0, 0.0), vec3(0.0, 0.2, 0.3))];
     let layers = Layers::draw(gpu(), &[(&ball, 0.01), (&block, 0.002)], TEXEL).expect("the device answers");
     let surfaces = [
         Surface { mesh: &ball, thickness: 0.01, velocities: None },
@@ -111,7 +112,7 @@ fn several_surfaces_share_the_maps() {
 /// Saboteurs: another thickness, a normal of the other sign, the back taken for the front.
 #[test]
 fn wrong_maps_are_found() {
-    let ball = uv_sphere(vec3(0.1, 1.0, 0.0), 0.3, 32);
+    let ball = Mesh::sphere(vec3(0.1, 1.0, 0.0), 0.3, 32);
     let layers = Layers::draw(gpu(), &[(&ball, THICKNESS)], TEXEL).expect("the device answers");
     let right = layers.read;
     let frame = right.frame;
@@ -120,7 +121,7 @@ fn wrong_maps_are_found() {
     let mut turned = right.clone();
     turned.normals[0].iter_mut().for_each(|normal| normal.x = -normal.x);
     assert!(!Comparison::new(&right, &turned).agrees(), "normals");
-    let lying = Layers::draw(gpu(), &[(&box_mesh(vec3(-0.2, 0.0, -0.1), vec3(0.2, 0.3, 0.3)), 0.0)], TEXEL)
+    let lying = Layers::draw(gpu(), &[(&Mesh::cuboid(vec3(-0.2, 0.0, -0.1), vec3(0.2, 0.3, 0.3)), 0.0)], TEXEL)
         .expect("the device answers")
         .read;
     let mut swapped = lying.clone();
@@ -158,7 +159,7 @@ fn the_surface_in_the_maps_keeps_the_thickness_from_the_body() {
     let thickness = f64::from(THICKNESS);
     let of = |sorted: &[f64], part: f64| sorted[((sorted.len() - 1) as f64 * part) as usize];
     // A face of the sphere leans from its vertex normals by at most 3°.
-    let ball = distances(&uv_sphere(vec3(0.1, 1.0, 0.0), 0.3, 64), THICKNESS);
+    let ball = distances(&Mesh::sphere(vec3(0.1, 1.0, 0.0), 0.3, 64), THICKNESS);
     assert!(ball[0] > 0.995 * thickness && of(&ball, 1.0) < 1.005 * thickness, "{:?} {:?}", ball[0], of(&ball, 1.0));
     let woman = distances(&body(), THICKNESS);
     let [least, p1, median, most] = [0.0, 0.01, 0.5, 1.0].map(|part| of(&woman, part) / thickness);
@@ -199,7 +200,7 @@ fn plan_and_bytes_do_not_depend_on_the_triangles_of_the_body() {
     let (model, settings) = sheet(Rule::Predictive);
     let frame = MapFrame::around([vec3(-0.4, -0.4, -0.4), vec3(0.4, 0.4, 0.4)], TEXEL);
     let with = |count: u32| {
-        let mesh = uv_sphere(Vec3::ZERO, 0.3, count);
+        let mesh = Mesh::sphere(Vec3::ZERO, 0.3, count);
         let layers = Layers::draw_in(gpu(), &[(&mesh, THICKNESS)], frame).expect("the device answers");
         let colliders = toile::Colliders { maps: Some(layers.maps.clone()), sphere: None };
         let simulation = toile::Simulation::new(&gpu().device, &model, &settings, colliders).expect("it fits");

@@ -6,8 +6,8 @@ use toile_gpu::MovingBody;
 use toile_model::{MapFrame, Model, StepSettings};
 use toile_reference::maps::{BodyMaps, Surface, render_maps_in, skin_body, vertex_velocities};
 use toile_reference::{Colliders, Reference};
-use toile_scene::{Cloth, Motion, MovingMesh, RigidKey, Rule, Scene, VelocityModification};
-use toile_workspace::{Layers, first_difference, fixture, gpu, read_maps, scene, sheet_model, uv_sphere, vec3_words};
+use toile_scene::{Cloth, Mesh, Motion, MovingMesh, RigidKey, Rule, Scene, VelocityModification};
+use toile_workspace::{Layers, first_difference, fixture, gpu, read_maps, scene, sheet_model, vec3_words};
 
 fn walking(clip: &str) -> MovingMesh {
     let options = toile::files::BodyOptions { clip: Some(clip.to_owned()), ..Default::default() };
@@ -27,7 +27,7 @@ fn rolling_ball() -> MovingMesh {
         translation: DVec3::new(time, 0.1 * time, 0.0),
         rotation: DQuat::from_rotation_z(-2.0 * time),
     };
-    MovingMesh::rigid(uv_sphere(Vec3::ZERO, 0.25, 48), vec![key(0.0), key(0.5), key(1.0)])
+    MovingMesh::rigid(Mesh::sphere(Vec3::ZERO, 0.25, 48), vec![key(0.0), key(0.5), key(1.0)])
 }
 
 #[test]
@@ -184,7 +184,7 @@ fn passed(speed: f64, swept: bool) -> usize {
     let start = middle - DVec3::Z * 0.5;
     let end = 0.8 / speed;
     let key = |time: f64| RigidKey { time, translation: start + DVec3::Z * speed * time, rotation: DQuat::IDENTITY };
-    let ball = MovingMesh::rigid(uv_sphere(Vec3::ZERO, 0.1, 24), vec![key(0.0), key(1.0)]);
+    let ball = MovingMesh::rigid(Mesh::sphere(Vec3::ZERO, 0.1, 24), vec![key(0.0), key(1.0)]);
     let interval = f64::from(settings.dt) * f64::from(settings.steps_per_frame);
     let mut reference: Option<Reference> = None;
     let mut time = 0.0;
@@ -319,7 +319,7 @@ fn an_outer_garment_sees_the_inner_one_as_it_moves() {
 #[test]
 fn a_body_that_leaves_every_place_is_refused() {
     let key = |time: f64, x: f64| RigidKey { time, translation: DVec3::X * x, rotation: DQuat::IDENTITY };
-    let lost = MovingMesh::rigid(uv_sphere(Vec3::ZERO, 0.25, 8), vec![key(0.0, 0.0), key(0.5, 0.1), key(1.0, 1e39)]);
+    let lost = MovingMesh::rigid(Mesh::sphere(Vec3::ZERO, 0.25, 8), vec![key(0.0, 0.0), key(0.5, 0.1), key(1.0, 1e39)]);
     let error = MovingFrame::new(&lost, 0.01, 0.0, false).expect_err("it leaves");
     assert!(error.to_string().starts_with("the body has no finite position at 0."), "{error}");
 }

@@ -14,8 +14,8 @@ use toile_report::experiments::validation::elastica::{ELASTICAS, Flexion, WEIGHT
 use toile_report::experiments::validation::hanging::{CATENARIES, catenary_sag, hanging_strip};
 use toile_report::fixtures::{body, fabric, square};
 use toile_report::kernels::Seeds;
-use toile_scene::{Fabric, Rule, Settings};
-use toile_workspace::{gpu, lab, uv_sphere};
+use toile_scene::{Fabric, Mesh, Rule, Settings};
+use toile_workspace::{gpu, lab};
 
 #[test]
 fn a_hanging_strip_stretches_by_the_weight_below() {
@@ -105,7 +105,7 @@ fn our_bound_is_stable_and_the_papers_equation_is_not() {
 
 #[test]
 fn the_life_of_the_comparison_is_that_of_the_reference() {
-    let ball = uv_sphere(glam::Vec3::ZERO, 0.25, 16);
+    let ball = Mesh::sphere(glam::Vec3::ZERO, 0.25, 16);
     let settings = Settings::new(fabric());
     let corner = glam::DVec3::new(-0.3, 0.256, 0.3);
     let model = Model::from_sheet(&square(9, 0.6, corner, glam::DVec3::NEG_Z, Vec::new()), &settings);

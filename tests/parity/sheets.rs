@@ -3,10 +3,8 @@
 use crate::life::Life;
 use toile::Simulation;
 use toile_model::StepSettings;
-use toile_scene::{Friction, Polish, Rule, VelocityModification, Wind};
-use toile_workspace::{
-    Layers, arrived, finish_frame, first_difference, gpu, scene, sheet_model, sphere, uv_sphere, vec3_words,
-};
+use toile_scene::{Friction, Mesh, Polish, Rule, VelocityModification, Wind};
+use toile_workspace::{Layers, arrived, finish_frame, first_difference, gpu, scene, sheet_model, sphere, vec3_words};
 
 #[test]
 fn a_hanging_sheet_agrees_under_every_rule() {
@@ -90,7 +88,7 @@ fn a_sheet_on_maps_and_a_sphere_together_agrees() {
     let ball = scene("ball", &[("n", "17"), ("sheet.0.corner", "[-0.5, 0.256, 0.5]")]);
     let model = sheet_model(&ball);
     let settings = StepSettings::new(&ball.settings, &model);
-    let body = uv_sphere(glam::vec3(0.2, 0.05, 0.0), 0.2, 24);
+    let body = Mesh::sphere(glam::vec3(0.2, 0.05, 0.0), 0.2, 24);
     let layers = Layers::draw(gpu(), &[(&body, settings.thickness)], 0.01).expect("the device answers");
     let mut life = Life::new(&model, &settings, Some(&layers), sphere(&ball));
     life.agree("a sphere and maps", 15);

@@ -3,11 +3,11 @@
 use crate::lab;
 use toile_reference::ExactDistance;
 use toile_report::experiments::precision::{Coding, MapError, Offset, Probing, Shell, map_error, velocity_error};
-use toile_report::shapes::uv_sphere;
+use toile_scene::Mesh;
 
 /// Errors on a sphere of 0.25 m, whose whole surface is seen, with texels of 0.5 cm.
 fn errors() -> [MapError; 3] {
-    let ball = uv_sphere(glam::Vec3::ZERO, 0.25, 32);
+    let ball = Mesh::sphere(glam::Vec3::ZERO, 0.25, 32);
     let exact = ExactDistance::new(&ball);
     let shell = Shell::new(&ball, 3000, lab().seed);
     [(Coding::Float, Offset::Normals), (Coding::EightBit, Offset::Normals), (Coding::Float, Offset::PixelLayers)]

@@ -11,5 +11,5 @@ pub use drive::{advance, arrived, finish_frame};
 pub use fixtures::{GARMENTS, SCENES, body, fixture, garment, scene, settings, sheet_model, sheet_settings, sphere};
 pub use gpu::{Gpu, INSTALL_HINT, gpu, lab};
 pub use toile_report::kernels::{Difference, first_difference, vec3_words};
-pub use toile_report::shapes::{box_mesh, uv_sphere, without_triangles};
+pub use toile_report::shapes::without_triangles;
 pub use toile_report::{Layers, Random, read_maps};

@@ -12,7 +12,6 @@ mod pattern;
 mod picture;
 mod progress;
 mod simulate;
-mod sphere_mesh;
 mod steps;
 mod walk;
 mod worn;

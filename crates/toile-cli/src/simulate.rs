@@ -6,7 +6,6 @@ use crate::commands::print;
 use crate::engine::{Computer, Layer};
 use crate::metrics::{ClothMetrics, Metrics, Surfaces};
 use crate::output::{self, Shown};
-use crate::sphere_mesh::sphere_mesh;
 use crate::worn::{self, Surroundings, Worn};
 use anyhow::{Result, bail};
 use toile::files::SceneFile;
@@ -52,7 +51,7 @@ pub fn simulate(file: &SceneFile, running: &Running) -> Result<()> {
         all.push(worn);
     }
     let metrics = Metrics::new(&scene.name, computer.name(), measured);
-    let ball = sphere.as_ref().map(|sphere| sphere_mesh(sphere.at(end(&all)).0, sphere.radius));
+    let ball = sphere.as_ref().map(|sphere| output::sphere_mesh(sphere, end(&all)));
     let mut bodies: Vec<Shown<'_>> = meshes(scene).map(|mesh| Shown { name: "body", mesh }).collect();
     bodies.extend(ball.as_ref().map(|mesh| Shown { name: "sphere", mesh }));
     let cloths: Vec<Shown<'_>> = all.iter().map(|worn| Shown { name: &worn.name, mesh: &worn.mesh }).collect();

@@ -17,9 +17,16 @@ const MOVING_UNIFORMS: [&str; 3] = ["span", "ball", "lag"];
 impl Program {
     /// Compiles a kernel.
     pub fn new(device: &wgpu::Device, kernel: Kernel) -> Self {
+        Self::of_source(device, kernel, &kernel.source(), constants(kernel, device.adapter_info().device_type))
+    }
+
+    /// Compiles any WGSL with the interface of a kernel: its own, or one that is changed to see a test fail. WGSL that is not valid is an error
+    /// of the device's error scope. `constants` are those that it has otherwise than it says.
+    pub fn of_source(device: &wgpu::Device, kernel: Kernel, source: &str, constants: &[(&str, f64)]) -> Self {
         let interface = Interface::of(kernel);
         let label = Some(kernel.name());
         let entries: Vec<_> = interface.bindings.iter().map(layout_entry).collect();
+        // Not the layout that wgpu infers: it leaves out what changed WGSL names but does not use.
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries: &entries });
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label,
@@ -28,7 +35,7 @@ impl Program {
         });
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label,
-            source: wgpu::ShaderSource::Wgsl(kernel.source().into()),
+            source: wgpu::ShaderSource::Wgsl(source.into()),
         });
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label,
@@ -38,7 +45,7 @@ impl Program {
             compilation_options: wgpu::PipelineCompilationOptions {
                 // Kernels write the memory of a workgroup before they read it.
                 zero_initialize_workgroup_memory: false,
-                constants: constants(kernel, device.adapter_info().device_type),
+                constants,
             },
             cache: None,
         });

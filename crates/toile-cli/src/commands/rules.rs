@@ -5,18 +5,17 @@ use crate::args::{Backend, Rules};
 use crate::commands::print;
 use crate::engine::Computer;
 use crate::interrupt::Interrupted;
-use crate::output;
+use crate::output::{self, sphere_mesh};
 use crate::picture::{self, Drawn, View};
 use crate::progress::Progress;
 use crate::simulate::sphere;
-use crate::sphere_mesh::sphere_mesh;
 use crate::steps::step_settings;
 use anyhow::{Result, bail};
 use glam::{DVec3, Vec3};
 use serde::Serialize;
 use toile::files::{SceneFile, read_scene, write_atomically};
 use toile::model::{Model, Status};
-use toile::scene::{Cloth, Mesh, Rule, Sphere};
+use toile::scene::{Cloth, Mesh, Rule};
 
 /// Height of the pictures [px].
 const PICTURE_HEIGHT: u32 = 480;
@@ -141,8 +140,8 @@ fn try_rule(
     row.lag_m = lags.last().copied();
     row.lag_mean_m = row.lag_m.map(|_| lags.iter().sum::<f64>() / lags.len() as f64);
     row.lag_max_over_run_m = lags.iter().copied().reduce(f64::max);
-    let centre = |sphere: &Sphere| sphere.at(last.step as f64 * f64::from(step.dt)).0;
-    let ball = sphere.as_ref().map(|sphere| sphere_mesh(centre(sphere), sphere.radius));
+    let end = last.step as f64 * f64::from(step.dt);
+    let ball = sphere.as_ref().map(|sphere| sphere_mesh(sphere, end));
     Ok((row, Mesh { positions: state.positions, normals: state.normals, triangles: model.triangles() }, ball))
 }
 

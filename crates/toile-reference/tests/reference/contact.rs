@@ -1,18 +1,18 @@
 //! Contact: friction on a plate, the sphere, and which side of a map answers.
 
-use crate::support::{GRAVITY, Grid, box_mesh, settings};
+use crate::support::{GRAVITY, Grid, settings};
 use glam::{DVec3, Vec3, vec3};
 use toile_model::{NO_CORNER, StepSettings};
 use toile_reference::maps::{BodyMaps, Surface, render_maps};
 use toile_reference::{Ball, Colliders, Contact, Probe, Reference, step};
-use toile_scene::{Friction, Rule, Sphere, SphereMotion};
+use toile_scene::{Friction, Mesh, Rule, Sphere, SphereMotion};
 
 /// Coulomb coefficient of the plate: it holds up to 16.7°.
 const FRICTION: f32 = 0.3;
 
 /// A plate with its front at z = 0.
 fn plate() -> BodyMaps {
-    let mesh = box_mesh(vec3(-0.5, -0.5, -0.1), vec3(3.0, 0.5, 0.0));
+    let mesh = Mesh::cuboid(vec3(-0.5, -0.5, -0.1), vec3(3.0, 0.5, 0.0));
     render_maps(&[Surface { mesh: &mesh, thickness: 0.0, velocities: None }], 0.01)
 }
 
@@ -211,7 +211,7 @@ fn the_oracle_of_the_sphere_sees_a_larger_one() {
 
 #[test]
 fn maps_are_read_where_they_were_drawn() {
-    let mesh = box_mesh(vec3(0.1, 0.3, 0.0), vec3(0.2, 0.5, 0.1));
+    let mesh = Mesh::cuboid(vec3(0.1, 0.3, 0.0), vec3(0.2, 0.5, 0.1));
     let maps = render_maps(&[Surface { mesh: &mesh, thickness: 0.0, velocities: None }], 0.01);
     let points = [vec3(0.12, 0.33, 0.05), vec3(0.18, 0.48, 0.05), vec3(0.12, 0.28, 0.05), vec3(0.08, 0.48, 0.05)];
     let probes = step::sample_maps(&points, &[Vec3::ZERO; 4], &maps, &settings());

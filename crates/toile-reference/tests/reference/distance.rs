@@ -1,6 +1,6 @@
 //! The exact distance against shapes whose distance is known.
 
-use crate::support::{Random, box_mesh, uv_sphere};
+use crate::support::Random;
 use glam::{DVec3, Vec3, dvec3, vec3};
 use toile_reference::ExactDistance;
 use toile_scene::Mesh;
@@ -27,7 +27,7 @@ fn box_error(mesh: &Mesh) -> f64 {
 }
 
 fn test_box() -> Mesh {
-    box_mesh(vec3(-0.5, -0.25, -0.75), vec3(0.5, 0.25, 0.75))
+    Mesh::cuboid(vec3(-0.5, -0.25, -0.75), vec3(0.5, 0.25, 0.75))
 }
 
 #[test]
@@ -47,7 +47,7 @@ fn the_oracle_of_the_box_sees_turned_triangles() {
 
 #[test]
 fn a_sphere_is_exact_to_its_facets() {
-    let distance = ExactDistance::new(&uv_sphere(Vec3::ZERO, 0.5, 128));
+    let distance = ExactDistance::new(&Mesh::sphere(Vec3::ZERO, 0.5, 128));
     for point in points(2000) {
         let expected = 0.5 - point.length();
         let difference = expected - distance.penetration(point);

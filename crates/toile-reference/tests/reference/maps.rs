@@ -1,8 +1,8 @@
 //! Maps of meshes against their analytic shapes.
 
-use crate::support::{box_mesh, uv_sphere};
 use glam::{Vec3, vec3};
 use toile_reference::maps::{BodyMaps, Surface, render_maps};
+use toile_scene::Mesh;
 
 const CENTRE: Vec3 = vec3(0.3, 0.7, -0.2);
 
@@ -48,7 +48,7 @@ fn sphere_errors(maps: &BodyMaps, radius: f32) -> (f32, f32) {
 #[test]
 fn a_sphere_has_the_depth_and_normals_of_a_sphere() {
     // Flat facets lie up to r·(1 − cos(π/2n))·2 = 0.02 mm inside, at 90 % of the radius 2.3 times that along z.
-    let mesh = uv_sphere(CENTRE, 0.25, 128);
+    let mesh = Mesh::sphere(CENTRE, 0.25, 128);
     let maps = render_maps(&[Surface { mesh: &mesh, thickness: 0.0, velocities: None }], 0.005);
     let (height, normal) = sphere_errors(&maps, 0.25);
     assert!(height < 1e-4 && normal < 2e-3, "{height} {normal}");
@@ -56,7 +56,7 @@ fn a_sphere_has_the_depth_and_normals_of_a_sphere() {
 
 #[test]
 fn thickness_makes_a_larger_sphere_evenly() {
-    let mesh = uv_sphere(CENTRE, 0.25, 128);
+    let mesh = Mesh::sphere(CENTRE, 0.25, 128);
     let maps = render_maps(&[Surface { mesh: &mesh, thickness: 0.01, velocities: None }], 0.005);
     let (height, normal) = sphere_errors(&maps, 0.26);
     assert!(height < 1e-4 && normal < 2e-3, "{height} {normal}");
@@ -64,7 +64,7 @@ fn thickness_makes_a_larger_sphere_evenly() {
 
 #[test]
 fn the_oracle_of_the_sphere_sees_swapped_sides() {
-    let mesh = uv_sphere(CENTRE, 0.25, 128);
+    let mesh = Mesh::sphere(CENTRE, 0.25, 128);
     let mut maps = render_maps(&[Surface { mesh: &mesh, thickness: 0.0, velocities: None }], 0.005);
     maps.normals.swap(0, 1);
     assert!(sphere_errors(&maps, 0.25).1 > 0.5);
@@ -72,8 +72,10 @@ fn the_oracle_of_the_sphere_sees_swapped_sides() {
 
 #[test]
 fn row_0_is_the_top_and_column_0_the_left() {
-    let [big, flag] =
-        [box_mesh(vec3(-0.1, -0.1, -0.1), vec3(0.1, 0.1, 0.1)), box_mesh(vec3(0.1, 0.1, 0.2), vec3(0.2, 0.3, 0.3))];
+    let [big, flag] = [
+        Mesh::cuboid(vec3(-0.1, -0.1, -0.1), vec3(0.1, 0.1, 0.1)),
+        Mesh::cuboid(vec3(0.1, 0.1, 0.2), vec3(0.2, 0.3, 0.3)),
+    ];
     let surfaces = [&big, &flag].map(|mesh| Surface { mesh, thickness: 0.0, velocities: None });
     let maps = render_maps(&surfaces, 0.01);
     let range = maps.frame.z_front - maps.frame.z_back;
@@ -99,8 +101,10 @@ fn row_0_is_the_top_and_column_0_the_left() {
 
 #[test]
 fn the_nearest_surface_is_seen_whatever_the_order() {
-    let [near, far] =
-        [box_mesh(vec3(-0.1, -0.1, 0.1), vec3(0.1, 0.1, 0.2)), box_mesh(vec3(-0.1, -0.1, -0.2), vec3(0.1, 0.1, -0.1))];
+    let [near, far] = [
+        Mesh::cuboid(vec3(-0.1, -0.1, 0.1), vec3(0.1, 0.1, 0.2)),
+        Mesh::cuboid(vec3(-0.1, -0.1, -0.2), vec3(0.1, 0.1, -0.1)),
+    ];
     let surfaces = [&near, &far].map(|mesh| Surface { mesh, thickness: 1e-3, velocities: None });
     let maps = render_maps(&surfaces, 0.01);
     let turned = render_maps(&[surfaces[1], surfaces[0]], 0.01);
@@ -111,7 +115,7 @@ fn the_nearest_surface_is_seen_whatever_the_order() {
 
 #[test]
 fn an_inverted_mesh_still_faces_the_cameras() {
-    let mut mesh = uv_sphere(CENTRE, 0.25, 32);
+    let mut mesh = Mesh::sphere(CENTRE, 0.25, 32);
     for normal in &mut mesh.normals {
         *normal = -*normal;
     }

@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use std::ops::Range;
 use toile_model::{Csr, Limit, Link, Model, Spring, SpringKind, StepSettings};
 use toile_reference::Particles;
-use toile_scene::{Friction, Mesh, Rule};
+use toile_scene::{Friction, Rule};
 
 /// Elongation that the limits of the test cloth allow.
 pub const THRESHOLD: f32 = 0.05;
@@ -225,48 +225,4 @@ impl Random {
     pub fn index(&mut self, count: usize) -> u32 {
         ((self.number() * count as f32) as usize).min(count - 1) as u32
     }
-}
-
-/// A sphere of `2·count` meridians and `count` parallels.
-pub fn uv_sphere(centre: Vec3, radius: f32, count: u32) -> Mesh {
-    let mut mesh = Mesh::default();
-    let columns = 2 * count;
-    for row in 0..=count {
-        let polar = std::f64::consts::PI * f64::from(row) / f64::from(count);
-        for column in 0..=columns {
-            // The last column stands exactly on the first, so that vertices at one place are equal.
-            let around = std::f64::consts::TAU * f64::from(column % columns) / f64::from(columns);
-            let ring = if row == 0 || row == count { 0.0 } else { polar.sin() };
-            let normal = DVec3::new(ring * around.cos(), polar.cos(), ring * around.sin());
-            mesh.normals.push(normal.as_vec3());
-            mesh.positions.push(centre + normal.as_vec3() * radius);
-        }
-    }
-    for row in 0..count {
-        for column in 0..columns {
-            let a = row * (columns + 1) + column;
-            let [b, c, d] = [a + 1, a + columns + 1, a + columns + 2];
-            mesh.triangles.extend([[a, b, c], [b, d, c]]);
-        }
-    }
-    mesh
-}
-
-/// An axis-aligned box with flat faces: four vertices for each of them.
-pub fn box_mesh(low: Vec3, high: Vec3) -> Mesh {
-    let mut mesh = Mesh::default();
-    let [centre, half] = [(low + high) * 0.5, (high - low) * 0.5];
-    for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
-        for normal in [axis, -axis] {
-            let right = Vec3::new(axis.z, axis.x, axis.y);
-            let up = normal.cross(right);
-            let first = mesh.positions.len() as u32;
-            for (u, v) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)] {
-                mesh.positions.push(centre + (normal + right * u + up * v) * half);
-                mesh.normals.push(normal);
-            }
-            mesh.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
-        }
-    }
-    mesh
 }

@@ -6,7 +6,6 @@ pub use life::{Collision, Life};
 
 use crate::fixtures::{body, fabric, square};
 use crate::page::{Axis, Block, Cell, Plot, Section, Series, SeriesStyle, Table};
-use crate::shapes::uv_sphere;
 use crate::{Experiment, Lab, LabError};
 use glam::{DVec3, Vec3};
 use std::time::Instant;
@@ -97,7 +96,7 @@ fn over(mesh: &Mesh, n: u32) -> (Settings, Model, StepSettings) {
 /// Time to prepare a body [ms] and of collision detection and response in a step [ms], for a sheet of n × n particles on a sphere of so many
 /// parallels, in image space and in object space.
 pub fn cost(parallels: u32, n: u32, steps: u32) -> [[f64; 2]; 2] {
-    let mesh = uv_sphere(Vec3::ZERO, 0.25, parallels);
+    let mesh = Mesh::sphere(Vec3::ZERO, 0.25, parallels);
     let (_, model, step) = over(&mesh, n);
     let make: [fn(&Mesh) -> Collision; 2] = [image, |mesh| Collision::Object(ObjectSpace::whole(mesh))];
     make.map(|make| {

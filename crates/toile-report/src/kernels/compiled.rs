@@ -2,8 +2,8 @@
 
 use crate::Gpu;
 use std::collections::BTreeMap;
-use toile::gpu::{BodyMaps, GpuError, Pass};
-use toile_kernels::{Interface, Kernel, Resource};
+use toile::gpu::{BodyMaps, GpuError, Pass, Program};
+use toile_kernels::{Kernel, Resource};
 use wgpu::util::DeviceExt;
 
 /// What a kernel is given.
@@ -19,41 +19,16 @@ pub trait Inputs {
 #[derive(Debug)]
 pub struct Compiled {
     kernel: Kernel,
-    interface: Interface,
-    layout: wgpu::BindGroupLayout,
-    pipeline: wgpu::ComputePipeline,
+    program: Program,
 }
 
 impl Compiled {
     /// Compiles WGSL; `None` when it is not valid.
     pub fn new(gpu: &Gpu, kernel: Kernel, source: &str) -> Option<Self> {
         let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(kernel.name()),
-            source: wgpu::ShaderSource::Wgsl(source.into()),
-        });
-        let interface = Interface::of(kernel);
-        let entries: Vec<_> = interface.bindings.iter().map(layout_entry).collect();
-        // Not the layout that wgpu infers: it leaves out what a kernel names but does not use.
-        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some(kernel.name()),
-            entries: &entries,
-        });
-        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some(kernel.name()),
-            bind_group_layouts: &[Some(&layout)],
-            immediate_size: 0,
-        });
-        let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(kernel.name()),
-            layout: Some(&pipeline_layout),
-            module: &module,
-            entry_point: Some(kernel.name()),
-            compilation_options: Default::default(),
-            cache: None,
-        });
+        let program = Program::of_source(&gpu.device, kernel, source, &[]);
         let fault = pollster::block_on(scope.pop());
-        fault.is_none().then(|| Self { kernel, interface, layout, pipeline })
+        fault.is_none().then(|| Self { kernel, program })
     }
 
     /// Runs the kernel on `items` items and gives the words of each buffer that it may write.
@@ -65,7 +40,8 @@ impl Compiled {
     /// When the kernel looks into maps and there are none.
     pub fn run(&self, gpu: &Gpu, items: u32, inputs: &impl Inputs) -> Result<BTreeMap<String, Vec<u32>>, GpuError> {
         let buffers: BTreeMap<&str, wgpu::Buffer> = self
-            .interface
+            .program
+            .interface()
             .bindings
             .iter()
             .filter_map(|binding| {
@@ -100,61 +76,31 @@ impl Compiled {
             texture.create_view(&view)
         };
         let views: BTreeMap<&str, wgpu::TextureView> = self
-            .interface
+            .program
+            .interface()
             .bindings
             .iter()
             .filter(|binding| matches!(binding.resource, Resource::DepthTexture | Resource::FloatTexture))
             .map(|binding| (binding.name.as_str(), map(&binding.name)))
             .collect();
-        let entries: Vec<_> = self
-            .interface
-            .bindings
-            .iter()
-            .map(|binding| wgpu::BindGroupEntry {
-                binding: binding.number,
-                resource: match views.get(binding.name.as_str()) {
-                    Some(view) => wgpu::BindingResource::TextureView(view),
-                    None => buffers[binding.name.as_str()].as_entire_binding(),
-                },
-            })
-            .collect();
-        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some(self.kernel.name()),
-            layout: &self.layout,
-            entries: &entries,
+        let group = self.program.bind(&gpu.device, |binding| match views.get(binding.name.as_str()) {
+            Some(view) => wgpu::BindingResource::TextureView(view),
+            None => buffers[binding.name.as_str()].as_entire_binding(),
         });
+        let offsets: &[u32] = if self.program.has_moving_uniform() { &[0] } else { &[] };
         let [x, y] = Pass::over(self.kernel, items).workgroups();
         gpu.run(|encoder| {
             let mut compute = encoder.begin_compute_pass(&Default::default());
-            compute.set_pipeline(&self.pipeline);
-            compute.set_bind_group(0, &group, &[]);
+            compute.set_pipeline(self.program.pipeline());
+            compute.set_bind_group(0, &group, offsets);
             compute.dispatch_workgroups(x, y, 1);
         })?;
-        self.interface
+        self.program
+            .interface()
             .bindings
             .iter()
             .filter(|binding| matches!(binding.resource, Resource::Storage { written: true, .. }))
             .map(|binding| Ok((binding.name.clone(), gpu.words(&buffers[binding.name.as_str()])?)))
             .collect()
-    }
-}
-
-fn layout_entry(binding: &toile_kernels::Binding) -> wgpu::BindGroupLayoutEntry {
-    let buffer = |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
-    let texture = |sample_type| wgpu::BindingType::Texture {
-        sample_type,
-        view_dimension: wgpu::TextureViewDimension::D2Array,
-        multisampled: false,
-    };
-    wgpu::BindGroupLayoutEntry {
-        binding: binding.number,
-        visibility: wgpu::ShaderStages::COMPUTE,
-        ty: match binding.resource {
-            Resource::Uniform { .. } => buffer(wgpu::BufferBindingType::Uniform),
-            Resource::Storage { written, .. } => buffer(wgpu::BufferBindingType::Storage { read_only: !written }),
-            Resource::DepthTexture => texture(wgpu::TextureSampleType::Depth),
-            Resource::FloatTexture => texture(wgpu::TextureSampleType::Float { filterable: false }),
-        },
-        count: None,
     }
 }

@@ -1,7 +1,6 @@
 //! Seeded input of any size that leads into every branch of a kernel.
 
 use super::input::{Input, Posed};
-use crate::shapes::{box_mesh, uv_sphere};
 use crate::{Gpu, Layers, Random};
 use glam::{DVec3, Vec3, Vec4, dvec3, vec3};
 use toile::gpu::{GpuError, Surface};
@@ -444,7 +443,7 @@ fn moving_layers(gpu: &Gpu) -> Result<Layers, GpuError> {
 }
 
 fn bodies() -> [Mesh; 2] {
-    [uv_sphere(vec3(-0.05, 0.0, 0.0), 0.4, 16), box_mesh(vec3(0.0, -0.45, -0.55), vec3(0.25, 0.1, -0.1))]
+    [Mesh::sphere(vec3(-0.05, 0.0, 0.0), 0.4, 16), Mesh::cuboid(vec3(0.0, -0.45, -0.55), vec3(0.25, 0.1, -0.1))]
 }
 
 /// A body whose vertices hang on none to a few joints and are displaced by none to a few morph targets.

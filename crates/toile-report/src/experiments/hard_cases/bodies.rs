@@ -2,12 +2,11 @@
 
 use super::{Case, Outcome, course};
 use crate::fixtures::{ball, fabric, hanging_sheet, square};
-use crate::shapes::uv_sphere;
 use crate::{Lab, LabError, Layers};
 use glam::{DQuat, DVec3, Vec3};
 use toile::Colliders;
 use toile::model::{Model, StepSettings};
-use toile::scene::{RigidKey, RigidMotion, Settings, Sheet, Sphere, SphereMotion};
+use toile::scene::{Mesh, RigidKey, RigidMotion, Settings, Sheet, Sphere, SphereMotion};
 use toile_reference::ExactDistance;
 
 const N: u32 = 12;
@@ -49,7 +48,7 @@ fn key(time: f64, translation: DVec3, angle: f64) -> RigidKey {
 /// A sheet on a sphere whose surface is above it.
 fn inside(lab: &Lab) -> Result<Outcome, LabError> {
     let settings = Settings::new(fabric());
-    let body = uv_sphere(Vec3::ZERO, 0.2, 32);
+    let body = Mesh::sphere(Vec3::ZERO, 0.2, 32);
     // At z = 17 cm, facing the front camera; 12 cm wide, so that its corners are nearly at the surface.
     let sheet = Sheet { down: DVec3::Y, ..square(N, 0.12, DVec3::new(-0.06, -0.06, 0.17), DVec3::Y, Vec::new()) };
     let settings = Settings { gravity: DVec3::ZERO, ..settings };

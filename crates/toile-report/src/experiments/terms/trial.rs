@@ -2,14 +2,13 @@
 
 use crate::experiments::terms::{Scene, Term};
 use crate::fixtures::{ball, fabric, hanging_sheet, square};
-use crate::shapes::uv_sphere;
 use crate::{Lab, LabError, Run};
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
 use toile::Colliders;
 use toile::gpu::{BodyMaps, Surface};
 use toile::model::{Csr, MapFrame, Model, StepSettings};
-use toile::scene::{Friction, Rule, Settings, Sphere, SphereMotion, VelocityModification, Wind};
+use toile::scene::{Friction, Mesh, Rule, Settings, Sphere, SphereMotion, VelocityModification, Wind};
 
 /// Edge length of the texels of the moving sphere [m].
 const TEXEL: f32 = 0.01;
@@ -141,7 +140,7 @@ impl MovingBall {
     fn draw(&self, lab: &Lab, frame: u32) {
         let time = f64::from(frame) * INTERVAL;
         let [before, centre] = [time - INTERVAL, time].map(|time| self.sphere.at(time).0);
-        let mut mesh = uv_sphere(Vec3::ZERO, self.sphere.radius as f32, 24);
+        let mut mesh = Mesh::sphere(Vec3::ZERO, self.sphere.radius as f32, 24);
         mesh.positions.iter_mut().for_each(|position| *position += centre.as_vec3());
         let mut surface = Surface::new(&lab.device, &mesh);
         if self.with_velocities {

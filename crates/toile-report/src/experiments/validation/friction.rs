@@ -2,7 +2,6 @@
 
 use super::laws::settings;
 use crate::page::{Block, Cell, Table};
-use crate::shapes::box_mesh;
 use crate::{Lab, LabError, Layers, Run};
 use glam::{DQuat, DVec2, DVec3, Vec3};
 use toile::Colliders;
@@ -67,7 +66,7 @@ pub fn coulomb_way(degrees: f64) -> f64 {
 /// A plate whose upper side falls towards the front camera by `degrees`.
 fn plate(degrees: f64) -> (Mesh, DQuat) {
     let tilt = DQuat::from_rotation_x(degrees.to_radians());
-    let mut mesh = box_mesh(Vec3::new(-0.5, -0.3, -1.0), Vec3::new(0.5, 0.0, 1.0));
+    let mut mesh = Mesh::cuboid(Vec3::new(-0.5, -0.3, -1.0), Vec3::new(0.5, 0.0, 1.0));
     for vector in mesh.positions.iter_mut().chain(&mut mesh.normals) {
         *vector = (tilt * vector.as_dvec3()).as_vec3();
     }
