@@ -1,5 +1,6 @@
 //! Hierarchical limits hold their thresholds on every scene of the bench `strain`, of which this is the small version.
 
+use glam::Vec3;
 use toile::Simulation;
 use toile_model::StepSettings;
 use toile_scene::{Rule, Threshold, VelocityModification};
@@ -64,4 +65,36 @@ fn limits_of_single_springs_alone_do_not() {
         let held = stretch(name, 32, Rule::Predictive, 0.05);
         assert!(held.over_run > 0.07, "{name}: {held:?}");
     }
+}
+
+/// Where the middle of the hanging sheet is after half a second, at the lowest point of its swing [m].
+fn middle_of_the_swing(overrides: &[(&str, &str)]) -> Vec3 {
+    let hang = scene("hang", &[&[("n", "16")], overrides].concat());
+    let model = sheet_model(&hang);
+    let settings = StepSettings::new(&hang.settings, &model);
+    let mut simulation =
+        Simulation::new(&gpu().device, &model, &settings, Default::default()).expect("it fits the device");
+    for _ in 0..30 {
+        advance(&mut simulation).expect("it stays finite");
+    }
+    let positions = gpu().vec3s(&simulation.frame().positions);
+    positions.iter().sum::<Vec3>() / positions.len() as f32
+}
+
+/// Little strain proves nothing in a cloth that is slowed: limits leave the sheet as fast as springs of 200 times the stiffness, in a sixth
+/// of the steps.
+#[test]
+fn cloth_that_is_held_swings_like_stiff_cloth() {
+    let stiff = [
+        ("rule", "none"),
+        ("fabric.structural_stiffness", "4000"),
+        ("fabric.shear_stiffness", "2000"),
+        ("fabric.bend_stiffness", "0.1"),
+    ];
+    let held = ("fabric.threshold", "0.01");
+    let stiff = middle_of_the_swing(&stiff);
+    let off = middle_of_the_swing(&[held]).distance(stiff);
+    assert!(off < 0.015, "{off} m");
+    let off = middle_of_the_swing(&[held, ("fabric.damping", "1")]).distance(stiff);
+    assert!(off > 0.08, "a damping of 1/s shows: {off} m");
 }
