@@ -8,8 +8,8 @@ use toile::model::Status;
 #[derive(Debug, Serialize)]
 pub struct StrainRow {
     /// Number of the frame, from 1.
-    frame: usize,
-    /// Simulated time at its end [s].
+    frame: u32,
+    /// Time at its end since the run, or draping, began [s].
     time_s: f64,
     /// Largest elongation of a structural or shear spring [1].
     elongation_max: f64,
@@ -28,9 +28,10 @@ impl StrainRow {
     pub fn all(worn: &Worn) -> Vec<Self> {
         let before = [Status::default()];
         let frames = before.iter().chain(&worn.log.statuses).zip(&worn.log.statuses);
-        let row = |(frame, (before, after)): (usize, (&Status, &Status))| Self {
+        let seconds = f64::from(worn.settings.steps_per_frame) * f64::from(worn.settings.dt);
+        let row = |(frame, (before, after)): (u32, (&Status, &Status))| Self {
             frame,
-            time_s: after.step as f64 * f64::from(worn.settings.dt),
+            time_s: f64::from(frame) * seconds,
             elongation_max: f64::from(after.elongation_max),
             longest_spring: after.longest_limit.map(|longest| worn.model.limits[longest as usize].ends),
             over_long_count: after.over_long_count,
