@@ -81,8 +81,7 @@ fn middle_of_the_swing(overrides: &[(&str, &str)]) -> Vec3 {
     positions.iter().sum::<Vec3>() / positions.len() as f32
 }
 
-/// Little strain proves nothing in a cloth that is slowed: limits leave the sheet as fast as springs of 200 times the stiffness, in a sixth
-/// of the steps.
+/// Little strain proves nothing in a cloth that is slowed: limits leave the sheet as fast as springs of 200 times the stiffness.
 #[test]
 fn cloth_that_is_held_swings_like_stiff_cloth() {
     let stiff = [

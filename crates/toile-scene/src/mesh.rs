@@ -15,7 +15,8 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// A sphere of so many parallels and twice as many meridians; a vertex on the first meridian stands there twice.
+    /// A sphere of so many parallels and twice as many meridians; vertices of the first meridian stand there twice, those of a pole once for
+    /// each meridian.
     pub fn sphere(centre: Vec3, radius: f32, parallels: u32) -> Self {
         let mut mesh = Self::default();
         let meridians = 2 * parallels;
