@@ -13,7 +13,7 @@ use support::Bench;
 use toile::gpu::{BodyMaps, Surface};
 use toile::model::{MapFrame, Model, StepSettings};
 use toile::scene::{Mesh, Sheet};
-use toile::{Colliders, Simulation};
+use toile::{Cloth, Colliders};
 use toile_workspace::sheet_settings;
 
 /// Parallels of the ellipsoids; the triangles are 4·count².
@@ -62,12 +62,11 @@ fn measure(bench: &Bench, body: &Mesh) {
     let model = Model::from_sheet(&sheet, &scene);
     let settings = StepSettings::new(&scene, &model);
     let colliders = Colliders { maps: Some(Arc::new(maps)), sphere: None };
-    let mut simulation =
-        Simulation::new(&bench.device, &model, &settings, colliders).unwrap_or_else(|error| panic!("{error}"));
+    let mut cloth = Cloth::new(&bench.device, &model, &settings, colliders).unwrap_or_else(|error| panic!("{error}"));
     for _ in 0..FRAMES {
-        run(bench, |encoder| simulation.record(&bench.device, encoder));
+        run(bench, |encoder| cloth.record(&bench.device, encoder));
     }
-    let cost = bench.step_cost(&mut simulation, STEPS);
+    let cost = bench.step_cost(&mut cloth, STEPS);
     let sampling = cost.kernels.iter().find(|(name, ..)| *name == "sample_maps").expect("a body has maps").2;
     println!(
         "{:>10} {:>12.1} {:>14.2} {:>18.1} {:>14.1}",

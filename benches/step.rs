@@ -9,7 +9,7 @@ mod support;
 
 use support::Bench;
 use toile::model::StepSettings;
-use toile::{Colliders, Simulation};
+use toile::{Cloth, Colliders};
 use toile_workspace::{scene, sheet_model, sphere};
 
 /// Steps that are measured.
@@ -29,16 +29,15 @@ fn measure(bench: &Bench, name: &str, size: u32) {
     let scene = scene(name, &[("n", &size.to_string())]);
     let model = sheet_model(&scene);
     let settings = StepSettings::new(&scene.settings, &model);
-    let mut simulation =
-        Simulation::new(&bench.device, &model, &settings, Colliders { maps: None, sphere: sphere(&scene) })
-            .unwrap_or_else(|error| panic!("{error}"));
-    let cost = bench.step_cost(&mut simulation, STEPS);
+    let mut cloth = Cloth::new(&bench.device, &model, &settings, Colliders { maps: None, sphere: sphere(&scene) })
+        .unwrap_or_else(|error| panic!("{error}"));
+    let cost = bench.step_cost(&mut cloth, STEPS);
     let particles = f64::from(model.particle_count());
     println!(
         "\n{name} {size}²: {} particles, {} springs, {:.0} bytes per particle, state copy {:.1} µs ({:.2} ns per particle)",
         model.particle_count(),
         model.spring_count(),
-        simulation.bytes() as f64 / particles,
+        cloth.bytes() as f64 / particles,
         1e3 * cost.state_copy,
         1e6 * cost.state_copy / particles,
     );

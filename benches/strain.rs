@@ -13,8 +13,8 @@ use glam::{DVec3, Vec3};
 use support::Bench;
 use toile::gpu::readback;
 use toile::model::{Limit, Model, StepSettings};
-use toile::scene::{Cloth, Polish, Rule, Scene, Settings, Sheet, Threshold, VelocityModification};
-use toile::{Colliders, Simulation, Strain};
+use toile::scene::{Polish, Rule, Scene, Settings, Sheet, Threshold, VelocityModification};
+use toile::{Cloth, Colliders, Strain};
 use toile_workspace::{Random, scene, sheet_model, sphere};
 
 const RULES: [(&str, Rule); 3] =
@@ -126,25 +126,25 @@ impl Row {
         let model = sheet_model(&scene);
         let settings = StepSettings::new(&scene.settings, &model);
         let colliders = Colliders { maps: None, sphere: sphere(&scene) };
-        let mut simulation =
-            Simulation::new(&bench.device, &model, &settings, colliders).unwrap_or_else(|error| panic!("{error}"));
+        let mut cloth =
+            Cloth::new(&bench.device, &model, &settings, colliders).unwrap_or_else(|error| panic!("{error}"));
         let frames = options.frames.unwrap_or(if name == "moving-ball" { 240 } else { 120 });
         let mut over_run = 0.0_f64;
         let mut elongations = vec![0.0];
         for _ in 0..frames {
-            elongations = frame(bench, &mut simulation, &model.limits).unwrap_or_else(|| vec![f64::INFINITY]);
+            elongations = frame(bench, &mut cloth, &model.limits).unwrap_or_else(|| vec![f64::INFINITY]);
             over_run = over_run.max(elongations[elongations.len() - 1]);
             if over_run.is_infinite() {
                 break;
             }
         }
-        let strain = simulation.strain().ok().flatten();
+        let strain = cloth.strain().ok().flatten();
         let per_step = |count: fn(&Strain) -> u32| {
             strain.as_ref().map_or(f64::INFINITY, |strain| f64::from(count(strain)) / strain.step as f64)
         };
         let further_sweeps_per_step = per_step(|strain| strain.further_sweeps);
         let missed_steps_per_step = per_step(|strain| strain.missed_steps);
-        let cost = bench.step_cost(&mut simulation, STEPS);
+        let cost = bench.step_cost(&mut cloth, STEPS);
         let dispatches: u32 = cost.kernels.iter().map(|(_, dispatches, _)| dispatches).sum();
         let steps = settings.steps_per_frame;
         let [drift, energy_growth] = free_sheet(bench, &scene);
@@ -184,17 +184,19 @@ impl Row {
 }
 
 fn sheet(scene: &Scene) -> &Sheet {
-    let [Cloth::Sheet(sheet)] = scene.cloths.as_slice() else { panic!("the scenes of this bench have one sheet") };
+    let [toile::scene::Cloth::Sheet(sheet)] = scene.cloths.as_slice() else {
+        panic!("the scenes of this bench have one sheet")
+    };
     sheet
 }
 
 /// Does a frame and gives the elongations at its end, sorted; `None` once the run has diverged.
-fn frame(bench: &Bench, simulation: &mut Simulation, limits: &[Limit]) -> Option<Vec<f64>> {
+fn frame(bench: &Bench, cloth: &mut Cloth, limits: &[Limit]) -> Option<Vec<f64>> {
     let mut encoder = bench.device.create_command_encoder(&Default::default());
-    simulation.record(&bench.device, &mut encoder);
+    cloth.record(&bench.device, &mut encoder);
     bench.queue.submit([encoder.finish()]);
-    let positions = read(bench, &simulation.frame().positions);
-    simulation.status().ok()?;
+    let positions = read(bench, &cloth.frame().positions);
+    cloth.status().ok()?;
     let elongation = |limit: &Limit| {
         let [a, b] = limit.ends.map(|end| positions[end as usize].as_dvec3());
         a.distance(b) / f64::from(limit.rest_length) - 1.0
@@ -220,14 +222,13 @@ fn free_sheet(bench: &Bench, scene: &Scene) -> [f64; 2] {
     let random = &mut Random::new(1);
     model.positions.iter_mut().for_each(|position| *position += random.vector(0.004));
     let step = StepSettings::new(&settings, &model);
-    let mut simulation =
-        Simulation::new(&bench.device, &model, &StepSettings { steps_per_frame: 1, ..step }, Default::default())
-            .unwrap_or_else(|error| panic!("{error}"));
+    let mut cloth = Cloth::new(&bench.device, &model, &StepSettings { steps_per_frame: 1, ..step }, Default::default())
+        .unwrap_or_else(|error| panic!("{error}"));
     let mut one_step = || {
         let mut encoder = bench.device.create_command_encoder(&Default::default());
-        simulation.record_steps(&bench.device, &mut encoder, 1);
+        cloth.record_steps(&bench.device, &mut encoder, 1);
         bench.queue.submit([encoder.finish()]);
-        let velocities = read(bench, simulation.velocities());
+        let velocities = read(bench, cloth.velocities());
         let weighed = || velocities.iter().zip(&model.masses).map(|(v, mass)| (v.as_dvec3(), f64::from(*mass)));
         let momentum: DVec3 = weighed().map(|(v, mass)| v * mass).sum();
         let sum_of_speeds: f64 = weighed().map(|(v, mass)| v.length() * mass).sum();

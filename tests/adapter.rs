@@ -1,6 +1,6 @@
 //! A missing adapter is a failure that says what to install, never a silent skip.
 
-use toile::Simulation;
+use toile::Cloth;
 use toile_model::StepSettings;
 use toile_workspace::{Gpu, INSTALL_HINT, gpu, scene, sheet_model};
 
@@ -26,6 +26,6 @@ fn a_device_with_less_than_webgpu_is_refused_with_what_it_lacks() {
     let scene = scene("hang", &[("n", "8")]);
     let model = sheet_model(&scene);
     let settings = StepSettings::new(&scene.settings, &model);
-    let error = Simulation::new(&device, &model, &settings, Default::default()).expect_err("it has too few buffers");
+    let error = Cloth::new(&device, &model, &settings, Default::default()).expect_err("it has too few buffers");
     insta::assert_snapshot!(error.to_string(), @"the device has maxStorageBuffersPerShaderStage 4 but the kernels are made for 8, the default of WebGPU; create it with at least that");
 }

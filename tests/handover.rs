@@ -1,7 +1,7 @@
 //! The handover from the open to the sewn model, and what a host gets of a frame.
 
 use glam::{DVec3, Vec3};
-use toile::{Colliders, Simulation};
+use toile::{Cloth, Colliders};
 use toile_gpu::Solver;
 use toile_model::{Merge, Model, StepSettings};
 use toile_scene::Mesh;
@@ -74,7 +74,7 @@ fn the_handover_keeps_mass_and_momentum_and_means() {
 fn the_sewn_simulation_goes_on_from_the_open_one() {
     let skirt = skirt();
     let device = &gpu().device;
-    let mut open = Simulation::new(device, &skirt.open, &skirt.sewing, Default::default()).expect("it fits the device");
+    let mut open = Cloth::new(device, &skirt.open, &skirt.sewing, Default::default()).expect("it fits the device");
     let status = advance(&mut open).expect("it stays finite");
     let mut encoder = device.create_command_encoder(&Default::default());
     let mut sewn =
@@ -92,9 +92,8 @@ fn the_sewn_simulation_goes_on_from_the_open_one() {
 #[test]
 fn the_buffers_of_a_frame_are_what_a_renderer_binds() {
     let skirt = skirt();
-    let simulation =
-        Simulation::new(&gpu().device, &skirt.open, &skirt.sewing, Default::default()).expect("it fits the device");
-    let frame = simulation.frame();
+    let cloth = Cloth::new(&gpu().device, &skirt.open, &skirt.sewing, Default::default()).expect("it fits the device");
+    let frame = cloth.frame();
     let vertex = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
     assert!(frame.positions.usage().contains(vertex) && frame.normals.usage().contains(vertex));
     assert!(frame.indices.usage().contains(wgpu::BufferUsages::INDEX));
@@ -114,9 +113,9 @@ fn the_buffers_of_a_frame_are_what_a_renderer_binds() {
 #[test]
 fn a_cloth_can_be_drawn_into_the_maps_of_the_next_one() {
     let skirt = skirt();
-    let mut simulation =
-        Simulation::new(&gpu().device, &skirt.open, &skirt.sewing, Default::default()).expect("it fits the device");
-    advance(&mut simulation).expect("it stays finite");
+    let mut cloth =
+        Cloth::new(&gpu().device, &skirt.open, &skirt.sewing, Default::default()).expect("it fits the device");
+    advance(&mut cloth).expect("it stays finite");
     let empty = Layers::draw(gpu(), &[(&Mesh::sphere(Vec3::new(0.0, 0.9, 0.0), 0.5, 8), 0.0)], 0.02)
         .expect("the device answers");
     let drawn = |maps: &toile_gpu::BodyMaps| {
@@ -124,7 +123,7 @@ fn a_cloth_can_be_drawn_into_the_maps_of_the_next_one() {
         depth[0].iter().filter(|depth| **depth < 1.0).count()
     };
     let sphere = drawn(&empty.maps);
-    let surface = toile_gpu::Surface::from(simulation.frame());
+    let surface = toile_gpu::Surface::from(cloth.frame());
     gpu().run(|encoder| empty.maps.record(&gpu().device, encoder, empty.read.frame, &[(&surface, 0.002)]));
     let cloth = drawn(&empty.maps);
     assert!(cloth > 100 && cloth != sphere, "{cloth} texels see the cloth");
@@ -137,13 +136,13 @@ fn status_arrives_without_waiting_or_mapping_in_the_loop() {
     const FRAMES: usize = 12;
     let skirt = skirt();
     let device = &gpu().device;
-    let mut simulation = Simulation::new(device, &skirt.open, &skirt.sewing, Colliders::default()).expect("it fits");
-    assert_eq!(simulation.status().expect("it stays finite"), None, "before the first frame");
+    let mut cloth = Cloth::new(device, &skirt.open, &skirt.sewing, Colliders::default()).expect("it fits");
+    assert_eq!(cloth.status().expect("it stays finite"), None, "before the first frame");
     let recorded: Vec<wgpu::CommandBuffer> = (0..FRAMES)
         .map(|_| {
             let mut encoder = device.create_command_encoder(&Default::default());
-            simulation.record(device, &mut encoder);
-            assert_eq!(simulation.status().expect("it stays finite"), None, "nothing was submitted");
+            cloth.record(device, &mut encoder);
+            assert_eq!(cloth.status().expect("it stays finite"), None, "nothing was submitted");
             encoder.finish()
         })
         .collect();
@@ -152,12 +151,12 @@ fn status_arrives_without_waiting_or_mapping_in_the_loop() {
     let steps = u64::from(skirt.sewing.steps_per_frame);
     // Eight reports can be under way; the frames behind them go unreported but not undone.
     let newest = arrived("the status of frame 8", || {
-        simulation.status().expect("it stays finite").filter(|status| status.step == 8 * steps)
+        cloth.status().expect("it stays finite").filter(|status| status.step == 8 * steps)
     });
-    assert_eq!(at_once as u64 * steps, simulation.step());
+    assert_eq!(at_once as u64 * steps, cloth.step());
     assert!(newest.kinetic_energy > 0.0);
     // The slots are free again.
-    let status = advance(&mut simulation).expect("it stays finite");
+    let status = advance(&mut cloth).expect("it stays finite");
     assert_eq!(status.step, (FRAMES as u64 + 1) * steps);
 }
 
@@ -171,13 +170,13 @@ fn frames_recorded_together_are_frames_recorded_one_by_one() {
     let step = StepSettings::new(&ball.settings, &model);
     let positions = |at_once: bool| {
         let colliders = Colliders { maps: None, sphere: Some(sphere.clone()) };
-        let mut simulation = Simulation::new(&gpu().device, &model, &step, colliders).expect("it fits the device");
+        let mut cloth = Cloth::new(&gpu().device, &model, &step, colliders).expect("it fits the device");
         if at_once {
-            gpu().run(|encoder| (0..6).for_each(|_| simulation.record(&gpu().device, encoder)));
+            gpu().run(|encoder| (0..6).for_each(|_| cloth.record(&gpu().device, encoder)));
         } else {
-            (0..6).for_each(|_| gpu().run(|encoder| simulation.record(&gpu().device, encoder)));
+            (0..6).for_each(|_| gpu().run(|encoder| cloth.record(&gpu().device, encoder)));
         }
-        gpu().words(&simulation.frame().positions)
+        gpu().words(&cloth.frame().positions)
     };
     assert_eq!(positions(true), positions(false));
 }

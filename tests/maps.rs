@@ -190,9 +190,9 @@ fn without_a_body_nothing_of_the_contacts_exists() {
     for name in ["map_frame", "midpoints", "probes", "contacts", "ball"] {
         assert!(!names.contains(&name), "{name} among {names:?}");
     }
-    let simulation = toile::Simulation::new(&gpu().device, &model, &settings, Default::default()).expect("it fits");
-    assert_eq!(simulation.bytes(), solver.bytes() + simulation.frame().indices.size());
-    assert!(simulation.contacts().is_none());
+    let cloth = toile::Cloth::new(&gpu().device, &model, &settings, Default::default()).expect("it fits");
+    assert_eq!(cloth.bytes(), solver.bytes() + cloth.frame().indices.size());
+    assert!(cloth.contacts().is_none());
 }
 
 #[test]
@@ -203,8 +203,8 @@ fn plan_and_bytes_do_not_depend_on_the_triangles_of_the_body() {
         let mesh = Mesh::sphere(Vec3::ZERO, 0.3, count);
         let layers = Layers::draw_in(gpu(), &[(&mesh, THICKNESS)], frame).expect("the device answers");
         let colliders = toile::Colliders { maps: Some(layers.maps.clone()), sphere: None };
-        let simulation = toile::Simulation::new(&gpu().device, &model, &settings, colliders).expect("it fits");
-        (mesh.triangles.len(), simulation.plan().clone(), simulation.bytes(), layers.maps.bytes())
+        let cloth = toile::Cloth::new(&gpu().device, &model, &settings, colliders).expect("it fits");
+        (mesh.triangles.len(), cloth.plan().clone(), cloth.bytes(), layers.maps.bytes())
     };
     let [coarse, fine]: [(usize, Plan, u64, u64); 2] = [with(8), with(150)];
     assert!(fine.0 > 100 * coarse.0);

@@ -120,8 +120,8 @@ fn whole_frames_on_a_moving_body_agree() {
         reference.set_maps(maps);
         gpu().run(|encoder| outfit.record_steps(device, encoder, interval));
         reference.steps(settings.steps_per_frame / maps_per_frame);
-        let simulation = outfit.garments().next().expect("a garment");
-        let positions = vec3_words(&gpu().vec3s(&simulation.frame().positions));
+        let cloth = outfit.garments().next().expect("a garment");
+        let positions = vec3_words(&gpu().vec3s(&cloth.frame().positions));
         let fault = first_difference(&positions, &vec3_words(reference.positions()));
         assert!(fault.is_none(), "interval {index}: {}", fault.expect("there is one"));
         contacts = contacts.max(reference.contacts().iter().filter(|contact| contact.touching).count());

@@ -1,6 +1,6 @@
 //! What the benches share: a device, and what a step costs on it.
 
-use toile::Simulation;
+use toile::Cloth;
 use toile_report::StepCost;
 use toile_workspace::INSTALL_HINT;
 
@@ -38,7 +38,7 @@ impl Bench {
     }
 
     /// What a step of a simulation costs.
-    pub fn step_cost(&self, simulation: &mut Simulation, steps: usize) -> StepCost {
-        StepCost::of(&self.device, &self.queue, simulation, steps).expect("the device answers")
+    pub fn step_cost(&self, cloth: &mut Cloth, steps: usize) -> StepCost {
+        StepCost::of(&self.device, &self.queue, cloth, steps).expect("the device answers")
     }
 }

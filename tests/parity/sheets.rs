@@ -1,7 +1,7 @@
 //! Sheets alone, under every rule, and on spheres: device and reference agree bit for bit over whole runs.
 
 use crate::life::Life;
-use toile::Simulation;
+use toile::Cloth;
 use toile_model::StepSettings;
 use toile_scene::{Friction, Mesh, Polish, Rule, VelocityModification, Wind};
 use toile_workspace::{Layers, arrived, finish_frame, first_difference, gpu, scene, sheet_model, sphere, vec3_words};
@@ -104,16 +104,16 @@ fn whole_frames_of_a_simulation_agree() {
         let model = sheet_model(&scene);
         let settings = StepSettings::new(&scene.settings, &model);
         let colliders = toile::Colliders { maps: None, sphere: sphere(&scene) };
-        let mut simulation = Simulation::new(&gpu().device, &model, &settings, colliders).expect("it fits");
+        let mut cloth = Cloth::new(&gpu().device, &model, &settings, colliders).expect("it fits");
         let colliders = toile_reference::Colliders { maps: None, sphere: sphere(&scene) };
         let mut reference = toile_reference::Reference::new(&model, &settings, colliders);
         for _ in 0..3 {
-            gpu().run(|encoder| (0..5).for_each(|_| simulation.record(&gpu().device, encoder)));
+            gpu().run(|encoder| (0..5).for_each(|_| cloth.record(&gpu().device, encoder)));
             (0..5).for_each(|_| reference.frame());
-            let positions = vec3_words(&gpu().vec3s(&simulation.frame().positions));
+            let positions = vec3_words(&gpu().vec3s(&cloth.frame().positions));
             let fault = first_difference(&positions, &vec3_words(reference.positions()));
-            assert!(fault.is_none(), "{name} after step {}: {}", simulation.step(), fault.expect("there is one"));
-            assert_eq!(finish_frame(&mut simulation).expect("it stays finite"), reference.status(), "{name}");
+            assert!(fault.is_none(), "{name} after step {}: {}", cloth.step(), fault.expect("there is one"));
+            assert_eq!(finish_frame(&mut cloth).expect("it stays finite"), reference.status(), "{name}");
         }
     }
 }
@@ -138,13 +138,12 @@ fn frames_that_are_never_submitted_take_no_status_away() {
     let model = sheet_model(&scene);
     let settings = StepSettings::new(&scene.settings, &model);
     let device = &gpu().device;
-    let mut simulation =
-        Simulation::new(device, &model, &settings, Default::default()).expect("the model fits the device");
+    let mut cloth = Cloth::new(device, &model, &settings, Default::default()).expect("the model fits the device");
     for _ in 0..20 {
         let mut encoder = device.create_command_encoder(&Default::default());
-        simulation.record(device, &mut encoder);
+        cloth.record(device, &mut encoder);
     }
-    gpu().run(|encoder| simulation.record(device, encoder));
-    let status = arrived("the status of the frame", || simulation.status().expect("it is finite"));
-    assert_eq!(status.step, simulation.step());
+    gpu().run(|encoder| cloth.record(device, encoder));
+    let status = arrived("the status of the frame", || cloth.status().expect("it is finite"));
+    assert_eq!(status.step, cloth.step());
 }

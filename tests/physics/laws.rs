@@ -1,14 +1,13 @@
 //! Free fall, momentum, pinned particles.
 
 use glam::Vec3;
-use toile::Simulation;
 use toile_model::{Model, StepSettings};
 use toile_report::experiments::validation::laws::{free_fall_error, momentum_error};
 use toile_scene::{Cloth, Rule, Scene, Settings, VelocityModification};
 use toile_workspace::{advance, gpu, lab, scene};
 
-fn simulate(model: &Model, settings: &StepSettings) -> Simulation {
-    Simulation::new(&gpu().device, model, settings, Default::default()).expect("it fits the device")
+fn simulate(model: &Model, settings: &StepSettings) -> toile::Cloth {
+    toile::Cloth::new(&gpu().device, model, settings, Default::default()).expect("it fits the device")
 }
 
 /// After n steps of symplectic Euler from rest a body has fallen g·dt²·n(n + 1)/2, which is not ½·g·t². Limits change
@@ -61,11 +60,11 @@ fn pinned_particles_do_not_move() {
         };
         let Cloth::Sheet(sheet) = &cloths[0] else { panic!("hang has a sheet") };
         let model = Model::from_sheet(sheet, &settings);
-        let mut simulation = simulate(&model, &StepSettings::new(&settings, &model));
+        let mut cloth = simulate(&model, &StepSettings::new(&settings, &model));
         for _ in 0..20 {
-            advance(&mut simulation).expect("it stays finite");
+            advance(&mut cloth).expect("it stays finite");
         }
-        let end: Vec<Vec3> = gpu().vec3s(&simulation.frame().positions);
+        let end: Vec<Vec3> = gpu().vec3s(&cloth.frame().positions);
         let pinned: Vec<usize> = (0..end.len()).filter(|i| model.inverse_masses[*i] == 0.0).collect();
         assert_eq!(pinned.len(), 2);
         assert!(pinned.iter().all(|i| end[*i] == model.positions[*i]), "{rule:?}");

@@ -1,7 +1,7 @@
 //! A polish sweeps further where the sweeps of a step leave springs above its target, and says where that was not enough.
 
 use glam::Vec3;
-use toile::Simulation;
+use toile::Cloth;
 use toile_model::{Model, Status, StepSettings};
 use toile_scene::{Polish, Settings, Sphere};
 use toile_workspace::{Random, advance, gpu, scene, sheet_model, sphere};
@@ -20,16 +20,16 @@ struct Run {
 fn run(model: &Model, settings: &Settings, polish: Option<Polish>, sphere: Option<Sphere>, frames: u32) -> Run {
     let settings = StepSettings { polish, ..StepSettings::new(settings, model) };
     let colliders = toile::Colliders { maps: None, sphere };
-    let mut simulation = Simulation::new(&gpu().device, model, &settings, colliders).expect("it fits the device");
+    let mut cloth = Cloth::new(&gpu().device, model, &settings, colliders).expect("it fits the device");
     let mut elongation_max: f32 = 0.0;
     let mut status = Status::default();
     for _ in 0..frames {
-        status = advance(&mut simulation).expect("it stays finite");
+        status = advance(&mut cloth).expect("it stays finite");
         elongation_max = elongation_max.max(status.elongation_max);
     }
-    let strain = simulation.strain().expect("it stays finite").expect("a frame is done");
+    let strain = cloth.strain().expect("it stays finite").expect("a frame is done");
     assert_eq!([strain.further_sweeps, strain.missed_steps], [status.further_sweeps, status.missed_steps]);
-    let positions = gpu().vec3s(&simulation.frame().positions);
+    let positions = gpu().vec3s(&cloth.frame().positions);
     Run { positions, status, elongation_max, steps: frames * settings.steps_per_frame }
 }
 
@@ -80,10 +80,10 @@ fn a_polish_keeps_the_momentum() {
     model.positions.iter_mut().for_each(|position| *position += random.vector(0.01));
     let polish = Some(Polish { target: 0.031, sweeps: 8 });
     let settings = StepSettings { polish, ..StepSettings::new(&ball.settings, &model) };
-    let mut simulation = Simulation::new(&gpu().device, &model, &settings, Default::default()).expect("it fits");
-    let status = advance(&mut simulation).expect("it stays finite");
+    let mut cloth = Cloth::new(&gpu().device, &model, &settings, Default::default()).expect("it fits");
+    let status = advance(&mut cloth).expect("it stays finite");
     assert!(status.further_sweeps > 0, "{status:?}");
-    let velocities = gpu().vec3s(simulation.velocities());
+    let velocities = gpu().vec3s(cloth.velocities());
     let weighed = || velocities.iter().zip(&model.masses).map(|(v, mass)| v.as_dvec3() * f64::from(*mass));
     let momentum: glam::DVec3 = weighed().sum();
     let sum_of_sizes: f64 = weighed().map(glam::DVec3::length).sum();

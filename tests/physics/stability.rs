@@ -1,6 +1,6 @@
 //! Which rules stay bounded on the hanging sheet over 2 s, and how a run that diverges ends.
 
-use toile::{Error, Simulation};
+use toile::{Cloth, Error};
 use toile_model::{Limit, StepSettings};
 use toile_scene::{Rule, Threshold, VelocityModification};
 use toile_workspace::{advance, gpu, scene, sheet_model};
@@ -11,7 +11,7 @@ const FRAMES: u32 = 120;
 const FASTEST: f32 = 30.0;
 
 struct Run {
-    simulation: Simulation,
+    cloth: Cloth,
     limits: Vec<Limit>,
     /// Largest speed [m/s] and elongation [1] at the end of any frame.
     speed_max: f32,
@@ -24,10 +24,10 @@ fn hang(n: u32, rule: Rule) -> Run {
     hang.settings.velocity_modification = VelocityModification::new(rule);
     let model = sheet_model(&hang);
     let settings = StepSettings::new(&hang.settings, &model);
-    let simulation = Simulation::new(&gpu().device, &model, &settings, Default::default()).expect("it fits the device");
-    let mut run = Run { simulation, limits: model.limits, speed_max: 0.0, elongation_max: 0.0, end: Ok(()) };
+    let cloth = Cloth::new(&gpu().device, &model, &settings, Default::default()).expect("it fits the device");
+    let mut run = Run { cloth, limits: model.limits, speed_max: 0.0, elongation_max: 0.0, end: Ok(()) };
     for _ in 0..FRAMES {
-        match advance(&mut run.simulation) {
+        match advance(&mut run.cloth) {
             Ok(status) => {
                 run.speed_max = run.speed_max.max(status.speed_max);
                 run.elongation_max = run.elongation_max.max(status.elongation_max);
@@ -57,13 +57,12 @@ fn each_direction_keeps_its_own_threshold() {
     hang.settings.fabric.threshold = Threshold { warp: 0.015, weft: 0.03, shear: 0.12 };
     let model = sheet_model(&hang);
     let settings = StepSettings::new(&hang.settings, &model);
-    let mut simulation =
-        Simulation::new(&gpu().device, &model, &settings, Default::default()).expect("it fits the device");
+    let mut cloth = Cloth::new(&gpu().device, &model, &settings, Default::default()).expect("it fits the device");
     let mut over_long = 0;
     for _ in 0..FRAMES {
-        over_long = advance(&mut simulation).expect("it does not diverge").over_long_count;
+        over_long = advance(&mut cloth).expect("it does not diverge").over_long_count;
     }
-    let positions = gpu().vec3s(&simulation.frame().positions);
+    let positions = gpu().vec3s(&cloth.frame().positions);
     let mut most = [0.0_f32; 3];
     for limit in &model.limits {
         let [a, b] = limit.ends.map(|i| i as usize);
@@ -91,13 +90,13 @@ fn hierarchical_limits_hold_the_threshold_at_any_resolution() {
         let run = hang(n, Rule::Hierarchical);
         assert!(run.end.is_ok() && run.speed_max < FASTEST, "{n}: {} m/s", run.speed_max);
         assert!(run.elongation_max < 0.07, "{n}: {}", run.elongation_max);
-        let mut simulation = run.simulation;
-        let strain = simulation.strain().expect("it stays finite").expect("a frame is done");
-        let positions = gpu().vec3s(&simulation.frame().positions);
+        let mut cloth = run.cloth;
+        let strain = cloth.strain().expect("it stays finite").expect("a frame is done");
+        let positions = gpu().vec3s(&cloth.frame().positions);
         let longest = &run.limits[strain.longest_limit.expect("the sheet hangs") as usize];
         let [a, b] = longest.ends.map(|end| positions[end as usize]);
         assert!((a.distance(b) / longest.rest_length - 1.0 - strain.elongation_max).abs() < 1e-6);
-        assert!(simulation.settings().steps_per_frame <= 16, "{n}");
+        assert!(cloth.settings().steps_per_frame <= 16, "{n}");
     }
 }
 
@@ -114,8 +113,8 @@ fn the_other_rules_do_not() {
 fn a_run_that_diverges_ends_as_an_error_with_step_and_particle() {
     let run = hang(32, Rule::Directional);
     let Err(error @ Error::Diverged { step, particle, count }) = run.end else { panic!("it diverges: {:?}", run.end) };
-    assert_eq!(step, run.simulation.step());
-    let frame = run.simulation.frame();
+    assert_eq!(step, run.cloth.step());
+    let frame = run.cloth.frame();
     let broken: Vec<usize> = gpu()
         .vec3s(&frame.positions)
         .iter()

@@ -1,7 +1,7 @@
 //! Hierarchical limits hold their thresholds on every scene of the bench `strain`, of which this is the small version.
 
 use glam::Vec3;
-use toile::Simulation;
+use toile::Cloth;
 use toile_model::StepSettings;
 use toile_scene::{Rule, Threshold, VelocityModification};
 use toile_workspace::{SCENES, advance, gpu, scene, sheet_model, sphere};
@@ -26,10 +26,10 @@ fn stretch(name: &str, n: u32, rule: Rule, threshold: f64) -> Stretch {
     let settings = StepSettings::new(&scene.settings, &model);
     assert!(settings.steps_per_frame <= 16 && settings.sweeps <= 4, "{name}");
     let colliders = toile::Colliders { maps: None, sphere: sphere(&scene) };
-    let mut simulation = Simulation::new(&gpu().device, &model, &settings, colliders).expect("it fits the device");
+    let mut cloth = Cloth::new(&gpu().device, &model, &settings, colliders).expect("it fits the device");
     let mut stretch = Stretch { over_run: 0.0, over_long: 0.0 };
     for _ in 0..FRAMES {
-        let status = advance(&mut simulation).expect("it stays finite");
+        let status = advance(&mut cloth).expect("it stays finite");
         stretch.over_run = stretch.over_run.max(status.elongation_max);
         stretch.over_long = f64::from(status.over_long_count) / model.limits.len() as f64;
     }
@@ -72,12 +72,11 @@ fn middle_of_the_swing(overrides: &[(&str, &str)]) -> Vec3 {
     let hang = scene("hang", &[&[("n", "16")], overrides].concat());
     let model = sheet_model(&hang);
     let settings = StepSettings::new(&hang.settings, &model);
-    let mut simulation =
-        Simulation::new(&gpu().device, &model, &settings, Default::default()).expect("it fits the device");
+    let mut cloth = Cloth::new(&gpu().device, &model, &settings, Default::default()).expect("it fits the device");
     for _ in 0..30 {
-        advance(&mut simulation).expect("it stays finite");
+        advance(&mut cloth).expect("it stays finite");
     }
-    let positions = gpu().vec3s(&simulation.frame().positions);
+    let positions = gpu().vec3s(&cloth.frame().positions);
     positions.iter().sum::<Vec3>() / positions.len() as f32
 }
 

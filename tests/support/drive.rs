@@ -27,19 +27,19 @@ pub fn arrived<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
 /// Does one frame and waits for its status.
 ///
 /// # Errors
-/// What [`toile::Simulation::status`] reports.
-pub fn advance(simulation: &mut toile::Simulation) -> Result<Status, toile::Error> {
-    gpu().run(|encoder| simulation.record(&gpu().device, encoder));
-    finish_frame(simulation)
+/// What [`toile::Cloth::status`] reports.
+pub fn advance(cloth: &mut toile::Cloth) -> Result<Status, toile::Error> {
+    gpu().run(|encoder| cloth.record(&gpu().device, encoder));
+    finish_frame(cloth)
 }
 
 /// Waits for the status of the frame that was submitted last.
 ///
 /// # Errors
-/// What [`toile::Simulation::status`] reports.
-pub fn finish_frame(simulation: &mut toile::Simulation) -> Result<Status, toile::Error> {
-    arrived("the status of a frame", || match simulation.status() {
-        Ok(Some(status)) if status.step == simulation.step() => Some(Ok(status)),
+/// What [`toile::Cloth::status`] reports.
+pub fn finish_frame(cloth: &mut toile::Cloth) -> Result<Status, toile::Error> {
+    arrived("the status of a frame", || match cloth.status() {
+        Ok(Some(status)) if status.step == cloth.step() => Some(Ok(status)),
         Ok(_) => None,
         Err(error) => Some(Err(error)),
     })

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use toile::gpu::{BodyMaps, Kernel, PassTime, Surface, Timer, readback};
 use toile::model::{MapFrame, Merge, Model, Status, StepSettings};
 use toile::scene::{Mesh, Sphere};
-use toile::{Colliders, Simulation};
+use toile::{Cloth, Colliders};
 use toile_reference::Reference;
 use toile_reference::maps::{self as reference_maps, render_maps};
 
@@ -39,7 +39,7 @@ pub enum Engine<'a> {
         /// The device.
         gpu: &'a Gpu,
         /// The cloth.
-        simulation: Box<Simulation>,
+        cloth: Box<Cloth>,
     },
     /// By the reference.
     Reference(Box<Reference>),
@@ -76,8 +76,8 @@ impl Computer {
         match self {
             Computer::Gpu(gpu) => {
                 let maps = if layers.is_empty() { None } else { Some(Arc::new(draw_maps(gpu, layers, texel)?)) };
-                let simulation = Simulation::new(&gpu.device, model, settings, Colliders { maps, sphere })?;
-                Ok(Engine::Gpu { gpu, simulation: Box::new(simulation) })
+                let cloth = Cloth::new(&gpu.device, model, settings, Colliders { maps, sphere })?;
+                Ok(Engine::Gpu { gpu, cloth: Box::new(cloth) })
             }
             Computer::Reference => {
                 let surfaces: Vec<_> = layers
@@ -97,8 +97,8 @@ impl Computer {
 }
 
 /// The status of a cloth at the end of the frame that was waited for. One of an earlier frame, or none, would look like a calm cloth.
-pub fn status(simulation: &mut Simulation) -> Result<Status> {
-    let status = simulation.status()?.filter(|status| status.step == simulation.step());
+pub fn status(cloth: &mut Cloth) -> Result<Status> {
+    let status = cloth.status()?.filter(|status| status.step == cloth.step());
     status.context("the device gave no status of the last frame: it may be lost")
 }
 
@@ -123,12 +123,12 @@ impl Engine<'_> {
     pub fn frame(&mut self) -> Result<Status> {
         interrupt::check()?;
         match self {
-            Engine::Gpu { gpu, simulation } => {
+            Engine::Gpu { gpu, cloth } => {
                 let mut encoder = gpu.device.create_command_encoder(&Default::default());
-                simulation.record(&gpu.device, &mut encoder);
+                cloth.record(&gpu.device, &mut encoder);
                 gpu.queue.submit([encoder.finish()]);
                 gpu.device.poll(wgpu::PollType::wait_indefinitely())?;
-                status(simulation)
+                status(cloth)
             }
             Engine::Reference(reference) => {
                 reference.frame();
@@ -146,11 +146,11 @@ impl Engine<'_> {
     /// The same cloth with its seams merged.
     pub fn sewn(self, model: &Model, merge: &Merge, settings: &StepSettings) -> Result<Self> {
         match self {
-            Engine::Gpu { gpu, simulation } => {
+            Engine::Gpu { gpu, cloth } => {
                 let mut encoder = gpu.device.create_command_encoder(&Default::default());
-                let sewn = simulation.sewn(&gpu.device, &mut encoder, model, merge, settings)?;
+                let sewn = cloth.sewn(&gpu.device, &mut encoder, model, merge, settings)?;
                 gpu.queue.submit([encoder.finish()]);
-                Ok(Engine::Gpu { gpu, simulation: Box::new(sewn) })
+                Ok(Engine::Gpu { gpu, cloth: Box::new(sewn) })
             }
             Engine::Reference(reference) => Ok(Engine::Reference(Box::new(reference.sewn(model, settings, merge)))),
         }
@@ -159,19 +159,19 @@ impl Engine<'_> {
     /// Reads the state back.
     pub fn state(&self) -> Result<State> {
         match self {
-            Engine::Gpu { gpu, simulation } => {
+            Engine::Gpu { gpu, cloth } => {
                 let read = |buffer: &wgpu::Buffer| -> Result<Vec<Vec3>> {
                     let values = readback::read_vec4s(&gpu.device, &gpu.queue, buffer)?;
                     Ok(values.into_iter().map(|v| v.truncate()).collect())
                 };
-                let touching = match simulation.contacts() {
+                let touching = match cloth.contacts() {
                     Some(buffer) => {
                         let words = readback::read_vec4s(&gpu.device, &gpu.queue, buffer)?;
                         words.chunks_exact(2).map(|contact| contact[0].w > 0.0).collect()
                     }
                     None => Vec::new(),
                 };
-                let frame = simulation.frame();
+                let frame = cloth.frame();
                 Ok(State { positions: read(&frame.positions)?, normals: read(&frame.normals)?, touching })
             }
             Engine::Reference(reference) => Ok(State {
@@ -185,11 +185,11 @@ impl Engine<'_> {
     /// The kernels of a step and the median of what each costs per step [ms]; empty by the reference.
     /// It goes on by a few steps, so call it last.
     pub fn pass_times(&mut self) -> Result<BTreeMap<String, PassTime>> {
-        let Engine::Gpu { gpu, simulation } = self else { return Ok(BTreeMap::new()) };
+        let Engine::Gpu { gpu, cloth } = self else { return Ok(BTreeMap::new()) };
         let timer = Timer::new(&gpu.device, &gpu.queue)?;
         let mut samples: BTreeMap<Kernel, Vec<PassTime>> = BTreeMap::new();
         for _ in 0..TIMED_STEPS {
-            for (kernel, time) in simulation.time_step(&gpu.device, &gpu.queue, &timer)? {
+            for (kernel, time) in cloth.time_step(&gpu.device, &gpu.queue, &timer)? {
                 samples.entry(kernel).or_default().push(time);
             }
         }
@@ -203,7 +203,7 @@ impl Engine<'_> {
     /// Bytes on the device.
     pub fn bytes(&self) -> u64 {
         match self {
-            Engine::Gpu { simulation, .. } => simulation.bytes(),
+            Engine::Gpu { cloth, .. } => cloth.bytes(),
             Engine::Reference(_) => 0,
         }
     }

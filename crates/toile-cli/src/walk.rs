@@ -170,18 +170,18 @@ fn go_to_start(
     let mut outfit = Outfit::new(&gpu.device, &mut encoder, way, &garments, texel, maps_per_frame)?;
     outfit.record_start(&gpu.device, &mut encoder, 0.0);
     gpu.queue.submit([encoder.finish()]);
-    for ((simulation, walker), state) in outfit.garments().zip(walkers).zip(states) {
-        state.upload(gpu, simulation, &walker.model)?;
+    for ((cloth, walker), state) in outfit.garments().zip(walkers).zip(states) {
+        state.upload(gpu, cloth, &walker.model)?;
     }
     let frame_count = ((way.duration() + WAITING_SECONDS) / seconds).ceil() as u32;
     for _ in 0..frame_count {
         interrupt::check()?;
         timed(gpu, |encoder| outfit.record(&gpu.device, encoder, seconds))?;
-        for simulation in outfit.garments_mut() {
-            status(simulation)?;
+        for cloth in outfit.garments_mut() {
+            status(cloth)?;
         }
     }
-    outfit.garments().map(|simulation| GarmentState::download(gpu, simulation)).collect()
+    outfit.garments().map(|cloth| GarmentState::download(gpu, cloth)).collect()
 }
 
 /// Walks, frame by frame, and says which part of a step goes to the bodies.
@@ -204,14 +204,14 @@ fn simulate(walk: &Walk, gpu: &Gpu, walkers: &[Walker], saved: &Saved, running: 
         let (exact, mut inner) = (ExactDistance::new(&body), Vec::new());
         let mut row = FrameRow::new(frame, time, maps_ms, simulated_ms);
         let (mut states, mut cloths) = (Vec::new(), Vec::new());
-        for ((simulation, walker), last) in outfit.garments_mut().zip(walkers).zip(&mut last) {
-            let status = status(simulation)?;
+        for ((cloth, walker), last) in outfit.garments_mut().zip(walkers).zip(&mut last) {
+            let status = status(cloth)?;
             row.add_polish(last, &status);
             *last = status;
-            let state = GarmentState::download(gpu, simulation)?;
+            let state = GarmentState::download(gpu, cloth)?;
             let (thickness, texel) = (walk.settings.fabric.thickness, walk.settings.texel as f32);
             row.add(&walker.model, &state, &status, &exact, &inner, &body, &regions, thickness, texel);
-            let normals = readback::read_vec4s(&gpu.device, &gpu.queue, &simulation.frame().normals)?;
+            let normals = readback::read_vec4s(&gpu.device, &gpu.queue, &cloth.frame().normals)?;
             let normals = normals.into_iter().map(|normal| normal.truncate()).collect();
             let mesh = Mesh { positions: state.positions(), normals, triangles: walker.triangles.clone() };
             states.push(state);
@@ -261,8 +261,8 @@ fn start(
     let done = saved.frame_count() - 1;
     outfit.record_start(&gpu.device, &mut encoder, f64::from(done) * seconds);
     gpu.queue.submit([encoder.finish()]);
-    for ((simulation, walker), state) in outfit.garments().zip(walkers).zip(&saved.read(done)?) {
-        state.upload(gpu, simulation, &walker.model)?;
+    for ((cloth, walker), state) in outfit.garments().zip(walkers).zip(&saved.read(done)?) {
+        state.upload(gpu, cloth, &walker.model)?;
     }
     Ok(outfit)
 }
@@ -285,8 +285,8 @@ fn advance(gpu: &Gpu, outfit: &mut Outfit, time: f64, seconds: f64, maps_per_fra
 fn collision_part(gpu: &Gpu, outfit: &mut Outfit) -> Result<f64> {
     let timer = Timer::new(&gpu.device, &gpu.queue)?;
     let [mut whole, mut collision] = [0.0; 2];
-    for simulation in outfit.garments_mut() {
-        for (kernel, time) in simulation.time_step(&gpu.device, &gpu.queue, &timer)? {
+    for cloth in outfit.garments_mut() {
+        for (kernel, time) in cloth.time_step(&gpu.device, &gpu.queue, &timer)? {
             match kernel {
                 Kernel::StateCopy => continue,
                 Kernel::Reaction

@@ -9,7 +9,7 @@ use std::path::Path;
 use toile::gpu::readback::read_vec4s;
 use toile::model::{Model, StepSettings};
 use toile::scene::{Fabric, Mesh, Settings, Sheet, Sphere, SphereMotion};
-use toile::{Colliders, Simulation, files};
+use toile::{Cloth, Colliders, files};
 
 fn main() -> Result<(), Box<dyn Error>> {
     // The device is the host's: a renderer brings the one that it draws with.
@@ -32,16 +32,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     let model = Model::from_sheet(&sheet, &settings);
     let step = StepSettings::new(&settings, &model);
     let colliders = Colliders { maps: None, sphere: Some(sphere) };
-    let mut simulation = Simulation::new(&device, &model, &step, colliders)?;
+    let mut cloth = Cloth::new(&device, &model, &step, colliders)?;
 
     for frame in 1..=120 {
         let mut encoder = device.create_command_encoder(&Default::default());
-        simulation.record(&device, &mut encoder);
+        cloth.record(&device, &mut encoder);
         // A renderer draws the buffers of `simulation.frame()` here, with the same encoder.
         queue.submit([encoder.finish()]);
         // The status is that of the newest frame that is done: a host that does not wait sees it a frame or two later.
         device.poll(wgpu::PollType::Poll)?;
-        if let Some(status) = simulation.status()?
+        if let Some(status) = cloth.status()?
             && frame % 20 == 0
         {
             let elongation = 100.0 * status.elongation_max;
@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let read = |buffer: &wgpu::Buffer| -> Result<Vec<_>, toile::Error> {
         Ok(read_vec4s(&device, &queue, buffer)?.into_iter().map(|v| v.truncate()).collect())
     };
-    let buffers = simulation.frame();
+    let buffers = cloth.frame();
     let mesh =
         Mesh { positions: read(&buffers.positions)?, normals: read(&buffers.normals)?, triangles: model.triangles() };
     files::write_obj(Path::new("sheet.obj"), &mesh)?;

@@ -1,6 +1,6 @@
 //! Garments that walk together on a moving body.
 
-use crate::{Colliders, Error, Simulation};
+use crate::{Cloth, Colliders, Error};
 use glam::Vec3;
 use std::sync::Arc;
 use toile_gpu::{BodyMaps, MovingBody, Surface, Trail};
@@ -92,7 +92,7 @@ struct KeptMaps {
 
 #[derive(Debug)]
 struct Garment {
-    simulation: Simulation,
+    cloth: Cloth,
     maps: Arc<BodyMaps>,
     /// What the maps of the next garment draw of this one; the outermost has none.
     seen: Option<Seen>,
@@ -114,7 +114,7 @@ impl Outfit {
     /// [`Error::Gpu`] when body, maps or a garment do not fit the device, [`Error::Body`] when the body is not finite at some time.
     ///
     /// # Panics
-    /// When the steps of a frame are not a multiple of `maps_per_frame`, and as [`Simulation::new`].
+    /// When the steps of a frame are not a multiple of `maps_per_frame`, and as [`Cloth::new`].
     pub fn new(
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
@@ -138,17 +138,17 @@ impl Outfit {
                 Some(inner) => inner.maps.new_alike(device),
             });
             let colliders = Colliders { maps: Some(maps.clone()), sphere: None };
-            let simulation = match dressed.last() {
-                None => Simulation::new(device, model, settings, colliders)?,
-                Some(inner) => inner.simulation.new_alike(device, model, settings, colliders)?,
+            let cloth = match dressed.last() {
+                None => Cloth::new(device, model, settings, colliders)?,
+                Some(inner) => inner.cloth.new_alike(device, model, settings, colliders)?,
             };
-            let drawn = simulation.frame();
+            let drawn = cloth.frame();
             let seen = (dressed.len() < outermost).then(|| {
                 let trail = Trail::new(device, &drawn.positions, drawn.particle_count);
                 let surface = Surface { velocities: Some(trail.velocities().clone()), ..Surface::from(drawn) };
                 Seen { surface, trail }
             });
-            dressed.push(Garment { simulation, maps, seen });
+            dressed.push(Garment { cloth, maps, seen });
         }
         Ok(Self { body: moving, frame, thickness, maps_per_frame, time: 0.0, shown, garments: dressed, kept: None })
     }
@@ -235,16 +235,16 @@ impl Outfit {
                 garment.maps.record_copy(device, encoder, maps, self.shown);
                 garment.maps.record_over(device, encoder, &[(&seen.surface, self.thickness)]);
             }
-            let steps = garment.simulation.settings().steps_per_frame / self.maps_per_frame;
+            let steps = garment.cloth.settings().steps_per_frame / self.maps_per_frame;
             let trail = garment.seen.as_ref().map(|seen| &seen.trail);
             if let Some(trail) = trail {
                 trail.record_leaving(encoder);
             }
-            garment.simulation.record_steps(device, encoder, steps);
+            garment.cloth.record_steps(device, encoder, steps);
             if let Some(trail) = trail {
                 // The garment over this one sees it as it is now.
                 trail.record_arrival(device, encoder, interval);
-                garment.simulation.record_normals(encoder);
+                garment.cloth.record_normals(encoder);
             }
         }
     }
@@ -252,18 +252,18 @@ impl Outfit {
     /// Records normals and status of all garments.
     pub fn record_outputs(&mut self, encoder: &mut wgpu::CommandEncoder) {
         for garment in &mut self.garments {
-            garment.simulation.record_outputs(encoder);
+            garment.cloth.record_outputs(encoder);
         }
     }
 
     /// The garments, from the inside out.
-    pub fn garments(&self) -> impl ExactSizeIterator<Item = &Simulation> {
-        self.garments.iter().map(|garment| &garment.simulation)
+    pub fn garments(&self) -> impl ExactSizeIterator<Item = &Cloth> {
+        self.garments.iter().map(|garment| &garment.cloth)
     }
 
     /// The garments, from the inside out.
-    pub fn garments_mut(&mut self) -> impl ExactSizeIterator<Item = &mut Simulation> {
-        self.garments.iter_mut().map(|garment| &mut garment.simulation)
+    pub fn garments_mut(&mut self) -> impl ExactSizeIterator<Item = &mut Cloth> {
+        self.garments.iter_mut().map(|garment| &mut garment.cloth)
     }
 
     /// The body on the device, as the maps draw it.
@@ -284,7 +284,7 @@ impl Outfit {
     /// Bytes on the device.
     pub fn bytes(&self) -> u64 {
         let trails = |garment: &Garment| garment.seen.as_ref().map_or(0, |seen| seen.trail.bytes());
-        let garments = self.garments.iter().map(|garment| garment.simulation.bytes() + trails(garment));
+        let garments = self.garments.iter().map(|garment| garment.cloth.bytes() + trails(garment));
         let kept = self.kept.iter().flat_map(|kept| &kept.maps).map(|(maps, _)| maps.bytes());
         self.body.bytes() + garments.sum::<u64>() + kept.sum::<u64>()
     }

@@ -6,7 +6,7 @@ use anyhow::{Context, Result, bail};
 use glam::{Vec3, Vec4};
 use std::fs;
 use std::path::{Path, PathBuf};
-use toile::Simulation;
+use toile::Cloth;
 use toile::files::write_atomically;
 use toile::gpu::readback;
 use toile::model::Model;
@@ -33,23 +33,21 @@ impl GarmentState {
     }
 
     /// Reads the state of a garment.
-    pub fn download(gpu: &Gpu, simulation: &Simulation) -> Result<Self> {
-        let contacts = simulation.contacts().context("a garment on a body has contacts")?;
+    pub fn download(gpu: &Gpu, cloth: &Cloth) -> Result<Self> {
+        let contacts = cloth.contacts().context("a garment on a body has contacts")?;
         let read = |buffer| readback::read_vec4s(&gpu.device, &gpu.queue, buffer);
-        let impulses = simulation.limit_impulses().map_or(Ok(Vec::new()), read)?;
-        Ok(Self {
-            arrays: [read(&simulation.frame().positions)?, read(simulation.velocities())?, read(contacts)?, impulses],
-        })
+        let impulses = cloth.limit_impulses().map_or(Ok(Vec::new()), read)?;
+        Ok(Self { arrays: [read(&cloth.frame().positions)?, read(cloth.velocities())?, read(contacts)?, impulses] })
     }
 
     /// Writes it to the device; the masses are those of the model.
-    pub fn upload(&self, gpu: &Gpu, simulation: &Simulation, model: &Model) -> Result<()> {
+    pub fn upload(&self, gpu: &Gpu, cloth: &Cloth, model: &Model) -> Result<()> {
         let [positions, velocities, contacts, impulses] = &self.arrays;
         let count = model.positions.len();
         if [positions.len(), velocities.len(), contacts.len()] != [count, count, 2 * count] {
             bail!("the saved walk has {} particles where the garment has {count}: start anew", positions.len());
         }
-        let places = simulation.limit_impulses().filter(|_| !impulses.is_empty());
+        let places = cloth.limit_impulses().filter(|_| !impulses.is_empty());
         if places.is_some_and(|places| places.size() != 16 * impulses.len() as u64) {
             bail!("the saved walk has other limits than the garment: start anew");
         }
@@ -59,9 +57,9 @@ impl GarmentState {
         let write = |buffer: &wgpu::Buffer, values: &[Vec4]| {
             gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(values));
         };
-        write(&simulation.frame().positions, &with(positions, &model.inverse_masses));
-        write(simulation.velocities(), &with(velocities, &model.masses));
-        write(simulation.contacts().context("a garment on a body has contacts")?, contacts);
+        write(&cloth.frame().positions, &with(positions, &model.inverse_masses));
+        write(cloth.velocities(), &with(velocities, &model.masses));
+        write(cloth.contacts().context("a garment on a body has contacts")?, contacts);
         if let Some(places) = places {
             write(places, impulses);
         }

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use toile::gpu::{Timer, readback};
 use toile::model::{Model, Status, StepSettings};
 use toile::scene::{Settings, Sheet};
-use toile::{Colliders, Simulation};
+use toile::{Cloth, Colliders};
 use wgpu::util::DeviceExt;
 
 /// A cloth on the device of a lab.
@@ -17,7 +17,7 @@ pub struct Run {
     /// The numbers of its step.
     pub step: StepSettings,
     /// The simulation.
-    pub simulation: Simulation,
+    pub cloth: Cloth,
     diverged: bool,
 }
 
@@ -36,8 +36,8 @@ impl Run {
     /// # Errors
     /// [`LabError::Toile`] when it does not fit the device.
     pub fn new(lab: &Lab, model: Model, step: StepSettings, colliders: Colliders) -> Result<Self, LabError> {
-        let simulation = Simulation::new(&lab.device, &model, &step, colliders)?;
-        Ok(Self { model, step, simulation, diverged: false })
+        let cloth = Cloth::new(&lab.device, &model, &step, colliders)?;
+        Ok(Self { model, step, cloth, diverged: false })
     }
 
     /// A sheet under the settings of its scene.
@@ -59,7 +59,7 @@ impl Run {
             return Ok(None);
         }
         let mut encoder = lab.device.create_command_encoder(&Default::default());
-        self.simulation.record(&lab.device, &mut encoder);
+        self.cloth.record(&lab.device, &mut encoder);
         self.finish(lab, encoder)
     }
 
@@ -75,10 +75,10 @@ impl Run {
         let mut left = count;
         while left > 0 {
             let part = left.min(self.step.steps_per_frame);
-            self.simulation.record_steps(&lab.device, &mut encoder, part);
+            self.cloth.record_steps(&lab.device, &mut encoder, part);
             left -= part;
         }
-        self.simulation.record_outputs(&mut encoder);
+        self.cloth.record_outputs(&mut encoder);
         self.finish(lab, encoder)
     }
 
@@ -86,8 +86,8 @@ impl Run {
         lab.queue.submit([encoder.finish()]);
         lab.wait()?;
         loop {
-            match self.simulation.status() {
-                Ok(Some(status)) if status.step == self.simulation.step() => return Ok(Some(status)),
+            match self.cloth.status() {
+                Ok(Some(status)) if status.step == self.cloth.step() => return Ok(Some(status)),
                 // Another thread that polls the same device may still have the answer in its hands.
                 Ok(_) => lab.wait()?,
                 Err(toile::Error::Diverged { .. }) => {
@@ -107,7 +107,7 @@ impl Run {
 
     /// Simulated time [s].
     pub fn time(&self) -> f64 {
-        self.simulation.step() as f64 * f64::from(self.step.dt)
+        self.cloth.step() as f64 * f64::from(self.step.dt)
     }
 
     /// Positions [m], shape [particle_count].
@@ -115,7 +115,7 @@ impl Run {
     /// # Errors
     /// [`LabError::Toile`] when the device is lost.
     pub fn positions(&self, lab: &Lab) -> Result<Vec<DVec3>, LabError> {
-        lab.read(&self.simulation.frame().positions)
+        lab.read(&self.cloth.frame().positions)
     }
 
     /// Velocities [m/s], shape [particle_count].
@@ -123,7 +123,7 @@ impl Run {
     /// # Errors
     /// [`LabError::Toile`] when the device is lost.
     pub fn velocities(&self, lab: &Lab) -> Result<Vec<DVec3>, LabError> {
-        lab.read(self.simulation.velocities())
+        lab.read(self.cloth.velocities())
     }
 
     /// Elongations of all structural and shear springs [1], sorted; infinite ones in a run that has diverged.
@@ -151,7 +151,7 @@ impl Run {
     /// # Errors
     /// [`LabError::Toile`] when the device is lost.
     pub fn cost(&mut self, lab: &Lab, steps: usize) -> Result<StepCost, LabError> {
-        Ok(StepCost::of(&lab.device, &lab.queue, &mut self.simulation, steps)?)
+        Ok(StepCost::of(&lab.device, &lab.queue, &mut self.cloth, steps)?)
     }
 }
 
@@ -164,14 +164,14 @@ impl StepCost {
     pub fn of(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
-        simulation: &mut Simulation,
+        cloth: &mut Cloth,
         steps: usize,
     ) -> Result<Self, toile::Error> {
         let timer = Timer::new(device, queue)?;
         let mut least = BTreeMap::new();
         let mut dispatches = BTreeMap::new();
         for step in 0..=steps {
-            for (kernel, time) in simulation.time_step(device, queue, &timer)? {
+            for (kernel, time) in cloth.time_step(device, queue, &timer)? {
                 dispatches.insert(kernel, time.dispatches);
                 if step > 0 {
                     let least: &mut f64 = least.entry(kernel).or_insert(f64::INFINITY);

@@ -25,24 +25,24 @@ fn broken(lab: &Lab, value: f32, velocity: bool) -> Result<Outcome, LabError> {
     let (sheet, settings) = hanging_sheet(12);
     let mut run = Run::sheet(lab, &sheet, &settings, Colliders::default())?;
     run.frame(lab)?;
-    let buffer = if velocity { run.simulation.velocities() } else { &run.simulation.frame().positions };
+    let buffer = if velocity { run.cloth.velocities() } else { &run.cloth.frame().positions };
     lab.queue.write_buffer(buffer, 16 * u64::from(PARTICLE), &value.to_le_bytes());
     let mut words = Vec::new();
     let mut held = true;
     for at_once in [true, false] {
         let mut encoder = lab.device.create_command_encoder(&Default::default());
         if at_once {
-            run.simulation.record_outputs(&mut encoder);
+            run.cloth.record_outputs(&mut encoder);
         } else {
-            run.simulation.record(&lab.device, &mut encoder);
+            run.cloth.record(&lab.device, &mut encoder);
         }
         lab.queue.submit([encoder.finish()]);
         lab.wait()?;
-        match run.simulation.status() {
+        match run.cloth.status() {
             Err(toile::Error::Diverged { step, particle, count }) => {
                 let when = if at_once { "at once" } else { "a frame later" };
                 words.push(format!("{when}: step {step}, first particle {particle}, {count} of them"));
-                held &= step == run.simulation.step() && (!at_once || (particle, count) == (PARTICLE, 1));
+                held &= step == run.cloth.step() && (!at_once || (particle, count) == (PARTICLE, 1));
             }
             Err(error) => return Err(error.into()),
             Ok(_) => {

@@ -32,25 +32,25 @@ impl Colliders {
 ///
 /// let model = Model::from_sheet(sheet, settings);
 /// let step = StepSettings::new(settings, &model);
-/// let mut simulation = toile::Simulation::new(device, &model, &step, Default::default())?;
+/// let mut cloth = toile::Cloth::new(device, &model, &step, Default::default())?;
 /// for _ in 0..60 {
 ///     let mut encoder = device.create_command_encoder(&Default::default());
-///     simulation.record(device, &mut encoder);
-///     // Draw simulation.frame() with the same encoder, then:
+///     cloth.record(device, &mut encoder);
+///     // Draw cloth.frame() with the same encoder, then:
 ///     queue.submit([encoder.finish()]);
-///     simulation.status()?;
+///     cloth.status()?;
 /// }
 /// # Ok(())
 /// # }
 /// ```
 #[derive(Debug)]
-pub struct Simulation {
+pub struct Cloth {
     solver: Solver,
     colliders: Colliders,
     frame: Frame,
 }
 
-impl Simulation {
+impl Cloth {
     /// A cloth at the start of its model.
     ///
     /// # Errors
