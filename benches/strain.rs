@@ -226,7 +226,7 @@ fn free_sheet(bench: &Bench, scene: &Scene) -> [f64; 2] {
         .unwrap_or_else(|error| panic!("{error}"));
     let mut one_step = || {
         let mut encoder = bench.device.create_command_encoder(&Default::default());
-        cloth.record_steps(&bench.device, &mut encoder, 1);
+        cloth.record_steps(&bench.device, &mut encoder, 0..1, 1);
         bench.queue.submit([encoder.finish()]);
         let velocities = read(bench, cloth.velocities());
         let weighed = || velocities.iter().zip(&model.masses).map(|(v, mass)| (v.as_dvec3(), f64::from(*mass)));

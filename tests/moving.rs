@@ -2,11 +2,11 @@
 
 use glam::{DQuat, DVec3, Vec3, vec3};
 use toile::{MovingFrame, Outfit};
-use toile_gpu::MovingBody;
+use toile_gpu::{MovingBody, Solver};
 use toile_model::{MapFrame, Model, StepSettings};
 use toile_reference::maps::{BodyMaps, Surface, render_maps_in, skin_body, vertex_velocities};
 use toile_reference::{Colliders, Reference};
-use toile_scene::{Cloth, Mesh, Motion, MovingMesh, RigidKey, Rule, Scene, VelocityModification};
+use toile_scene::{Cloth, Mesh, Motion, MovingMesh, Polish, RigidKey, Rule, Scene, VelocityModification};
 use toile_workspace::{Layers, first_difference, fixture, gpu, read_maps, scene, sheet_model, vec3_words};
 
 fn walking(clip: &str) -> MovingMesh {
@@ -129,6 +129,55 @@ fn whole_frames_on_a_moving_body_agree() {
     assert!(contacts > 3, "{contacts} contacts");
     let carried: f32 = reference.expect("it ran").velocities().iter().map(|v| v.x).sum();
     assert!(carried > 0.0, "the ball takes the cloth along");
+}
+
+/// A host may stop within an interval of the maps, and go on later with a solver that has nothing but the state.
+#[test]
+fn an_interval_in_parts_gives_the_bits_of_a_whole_one_and_the_state_is_all_that_goes_on() {
+    let (device, ball, interval) = (&gpu().device, rolling_ball(), 1.0 / 60.0);
+    let (model, mut scene) = sheet("24");
+    scene.settings.velocity_modification.polish = Some(Polish { target: 1e-5, sweeps: 2 });
+    let settings = StepSettings::new(&scene.settings, &model);
+    let steps = settings.steps_per_frame;
+    let frame = MovingFrame::new(&ball, 0.01, settings.thickness, false).expect("the body is finite").at(interval);
+    let mut body = MovingBody::new(device, &ball).expect("it fits the device");
+    gpu().run(|encoder| [0.0, interval].into_iter().for_each(|time| body.record_pose(device, encoder, time)));
+    let layers = Layers::draw_surfaces(gpu(), &[(body.surface(), settings.thickness)], frame).expect("they fit");
+    let solver = || {
+        let colliders = toile_gpu::Colliders { maps: Some(&layers.maps), ..Default::default() };
+        Solver::new(device, &model, &settings, colliders).expect("the model fits the device")
+    };
+    let [mut whole, mut parts, mut resumed] = [solver(), solver(), solver()];
+    // Twice over the interval: what it leaves in the state is then not that of the start.
+    for _ in 0..2 {
+        gpu().run(|encoder| whole.record_steps(device, encoder, 0..steps, steps));
+        gpu().run(|encoder| parts.record_steps(device, encoder, 0..3, steps));
+        gpu().run(|encoder| {
+            for ((name, from), (same, to)) in parts.state().zip(resumed.state()) {
+                assert_eq!(name, same);
+                encoder.copy_buffer_to_buffer(from, 0, to, 0, from.size());
+            }
+        });
+        gpu().run(|encoder| {
+            for solver in [&mut parts, &mut resumed] {
+                solver.record_steps(device, encoder, 3..4, steps);
+                solver.record_steps(device, encoder, 4..steps, steps);
+            }
+        });
+    }
+    let names: Vec<_> = whole.state().map(|(name, _)| name).collect();
+    assert_eq!(names, ["positions", "velocities", "contacts", "limit_impulses", "polish_state"]);
+    let words = |solver: &Solver| solver.state().map(|(_, buffer)| gpu().words(buffer)).collect::<Vec<_>>();
+    let expected = words(&whole);
+    assert!(expected[2].iter().any(|word| *word != 0), "the cloth touches the body");
+    assert!(expected[4][2] > 0, "further sweeps were granted");
+    assert!(words(&parts) == expected, "in parts");
+    assert!(words(&resumed) == expected, "from the state");
+    let mut late = solver();
+    gpu().run(|encoder| late.record_steps(device, encoder, 0..3, 3));
+    let mut early = solver();
+    gpu().run(|encoder| early.record_steps(device, encoder, 0..3, steps));
+    assert!(words(&late) != words(&early), "the place in the interval matters");
 }
 
 /// The maps of a body between two poses, extrapolated from those of the later one, put the surface where it is.

@@ -139,7 +139,8 @@ fn contents(name: &str, model: &Model, settings: &StepSettings, plan: &Plan) -> 
             ..step_params(settings)
         }),
         "span" => Contents::Bytes(spans(plan)),
-        "ball" | "lag" => Contents::Zeros(u64::from(settings.steps_per_frame) * MOVING_UNIFORM_STRIDE),
+        "lag" => Contents::Bytes(lags(settings)),
+        "ball" => Contents::Zeros(u64::from(settings.steps_per_frame) * MOVING_UNIFORM_STRIDE),
         "positions" => {
             Contents::Bytes(vec4s(model.positions.iter().zip(&model.inverse_masses).map(|(p, w)| p.extend(*w))))
         }
@@ -220,9 +221,21 @@ fn contents(name: &str, model: &Model, settings: &StepSettings, plan: &Plan) -> 
 }
 
 fn spans(plan: &Plan) -> Vec<u8> {
+    moving_entries(plan.spans.iter().map(uniform_bytes))
+}
+
+/// How long before the time of the maps a step begins and ends, for the last step of an interval, the one before it, and so on.
+fn lags(settings: &StepSettings) -> Vec<u8> {
+    let after = |steps: u32| steps as f32 * settings.dt;
+    let lag = |left: u32| structs::Lag { start: after(left + 1), end: after(left) };
+    moving_entries((0..settings.steps_per_frame).map(|left| uniform_bytes(&lag(left))))
+}
+
+/// The entries of a moving uniform, each at its stride.
+pub(crate) fn moving_entries(entries: impl Iterator<Item = Vec<u8>>) -> Vec<u8> {
     let mut bytes = Vec::new();
-    for span in &plan.spans {
-        bytes.extend(uniform_bytes(span));
+    for entry in entries {
+        bytes.extend(entry);
         bytes.resize(bytes.len().next_multiple_of(MOVING_UNIFORM_STRIDE as usize), 0);
     }
     bytes

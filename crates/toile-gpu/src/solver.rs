@@ -1,11 +1,12 @@
 //! The solver: records the passes of a plan.
 
-use crate::buffers::{Buffers, DISPATCH_STRIDE, MOVING_UNIFORM_STRIDE, uniform_bytes};
+use crate::buffers::{Buffers, DISPATCH_STRIDE, MOVING_UNIFORM_STRIDE, moving_entries, uniform_bytes};
 use crate::limits::check_limits;
 use crate::status::StatusReader;
 use crate::timing::{PassTime, Timer};
 use crate::{BodyMaps, GpuError, Pass, Plan, Program};
 use std::collections::BTreeMap;
+use std::ops::Range;
 use toile_kernels::{Kernel, structs};
 use toile_model::{Maps, Merge, Model, Needs, Status, StepSettings};
 use toile_scene::Sphere;
@@ -33,6 +34,18 @@ pub struct Solver {
     status: StatusReader,
     step: u64,
 }
+
+/// Where a step stands, for the uniforms that change with it.
+#[derive(Clone, Copy, Debug, Default)]
+struct Place {
+    /// Among the steps that are recorded together.
+    recorded: u32,
+    /// Steps that follow it in the interval of the maps.
+    left: u32,
+}
+
+/// Names of the buffers whose contents carry over from step to step.
+const STATE: [&str; 5] = ["positions", "velocities", "contacts", "limit_impulses", "polish_state"];
 
 #[derive(Debug)]
 struct BoundProgram {
@@ -126,26 +139,42 @@ impl Solver {
 
     /// Records one frame: its steps, then normals and status.
     pub fn record_frame(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder) {
-        self.record_steps(device, encoder, self.settings.steps_per_frame);
+        let steps = self.settings.steps_per_frame;
+        self.record_steps(device, encoder, 0..steps, steps);
         self.record_outputs(encoder);
     }
 
-    /// Records steps, at most as many as a frame has. Maps of moving bodies show them as they are at the end of these steps.
+    /// Records steps of an interval of `interval` steps, at whose end the maps of moving bodies show them: a host may stop within an interval and go on
+    /// later, with the same bits.
     ///
     /// # Panics
-    /// When `count` is larger than the settings' steps per frame.
-    pub fn record_steps(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, count: u32) {
-        assert!(count <= self.settings.steps_per_frame, "a frame has {} steps", self.settings.steps_per_frame);
+    /// When the steps do not lie in the interval, or the interval is longer than a frame.
+    pub fn record_steps(
+        &mut self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        steps: Range<u32>,
+        interval: u32,
+    ) {
+        let most = self.settings.steps_per_frame;
+        assert!(interval <= most, "an interval of {interval} steps is longer than a frame, which has {most}");
+        assert!(steps.start <= steps.end && steps.end <= interval, "steps {steps:?} of an interval of {interval}");
+        let count = steps.end - steps.start;
         self.record_sphere(device, encoder, count);
-        self.record_lags(device, encoder, count);
         let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         let mut last = None;
         for index in 0..count {
+            let place = Place { recorded: index, left: interval - steps.start - index - 1 };
             for pass in &self.plan.step {
-                self.dispatch(&mut compute, pass, index, &mut last);
+                self.dispatch(&mut compute, pass, place, &mut last);
             }
         }
         self.step += u64::from(count);
+    }
+
+    /// The buffers whose contents carry over from step to step, and their names: all that a saved simulation needs. Usage `COPY_SRC` and `COPY_DST`.
+    pub fn state(&self) -> impl Iterator<Item = (&'static str, &wgpu::Buffer)> {
+        STATE.iter().filter_map(|name| Some((*name, self.buffers.find(name)?)))
     }
 
     /// Records normals and status of the present state.
@@ -166,7 +195,7 @@ impl Solver {
         let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         let mut last = None;
         for pass in self.plan.frame.iter().filter(|pass| wanted(pass.kernel)) {
-            self.dispatch(&mut compute, pass, 0, &mut last);
+            self.dispatch(&mut compute, pass, Place::default(), &mut last);
         }
     }
 
@@ -183,13 +212,12 @@ impl Solver {
     ) -> Result<BTreeMap<Kernel, PassTime>, GpuError> {
         let mut encoder = device.create_command_encoder(&Default::default());
         self.record_sphere(device, &mut encoder, 1);
-        self.record_lags(device, &mut encoder, 1);
         queue.submit([encoder.finish()]);
         let mut times: BTreeMap<Kernel, PassTime> = BTreeMap::new();
         for pass in &self.plan.step {
             let time = times.entry(pass.kernel).or_default();
-            time.milliseconds +=
-                timer.milliseconds(device, queue, |compute| self.dispatch(compute, pass, 0, &mut None))?;
+            time.milliseconds += timer
+                .milliseconds(device, queue, |compute| self.dispatch(compute, pass, Place::default(), &mut None))?;
             time.dispatches += 1;
         }
         let milliseconds = self.time_state_copy(device, queue, timer)?;
@@ -313,6 +341,11 @@ impl Solver {
         self.step
     }
 
+    /// Goes on from a step: for a state that another solver left there. Shapes stand where they are then.
+    pub fn set_step(&mut self, step: u64) {
+        self.step = step;
+    }
+
     /// Bytes of all buffers; maps are counted by [`BodyMaps::bytes`].
     pub fn bytes(&self) -> u64 {
         self.buffers.bytes()
@@ -324,18 +357,13 @@ impl Solver {
     }
 
     /// `last` is the kernel whose pipeline is set: most passes are further colours of the same one.
-    fn dispatch(
-        &self,
-        compute: &mut wgpu::ComputePass<'_>,
-        pass: &Pass,
-        step_of_frame: u32,
-        last: &mut Option<Kernel>,
-    ) {
+    fn dispatch(&self, compute: &mut wgpu::ComputePass<'_>, pass: &Pass, place: Place, last: &mut Option<Kernel>) {
         let bound = &self.programs[&pass.kernel];
         if last.replace(pass.kernel) != Some(pass.kernel) {
             compute.set_pipeline(bound.program.pipeline());
         }
-        let entry = pass.span.unwrap_or(step_of_frame);
+        let step = if bound.program.interface().binding("lag").is_some() { place.left } else { place.recorded };
+        let entry = pass.span.unwrap_or(step);
         if bound.program.has_moving_uniform() {
             compute.set_bind_group(0, &bound.group, &[entry * MOVING_UNIFORM_STRIDE as u32]);
         } else {
@@ -371,18 +399,6 @@ impl Solver {
         self.record_moving_uniform(device, encoder, "ball", balls);
     }
 
-    /// Records how long before the time of the maps each of the coming steps begins and ends.
-    fn record_lags(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, count: u32) {
-        if self.buffers.find("lag").is_none() {
-            return;
-        }
-        let dt = self.settings.dt;
-        let lags = (0..count).map(|index| {
-            uniform_bytes(&structs::Lag { start: (count - index) as f32 * dt, end: (count - index - 1) as f32 * dt })
-        });
-        self.record_moving_uniform(device, encoder, "lag", lags);
-    }
-
     /// Records the entries of a uniform that moves from step to step.
     fn record_moving_uniform(
         &self,
@@ -391,11 +407,7 @@ impl Solver {
         name: &str,
         entries: impl Iterator<Item = Vec<u8>>,
     ) {
-        let mut bytes = Vec::new();
-        for entry in entries {
-            bytes.extend(entry);
-            bytes.resize(bytes.len().next_multiple_of(MOVING_UNIFORM_STRIDE as usize), 0);
-        }
+        let bytes = moving_entries(entries);
         // A buffer of its own, not a queue write: the caller may record several frames before submitting any.
         let upload = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some(name),

@@ -2,6 +2,7 @@
 
 use crate::{Error, Frame, Strain};
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::sync::Arc;
 use toile_gpu::{BodyMaps, Kernel, PassTime, Plan, Solver, Timer};
 use toile_model::{Merge, Model, Status, StepSettings};
@@ -122,13 +123,19 @@ impl Cloth {
         Ok(sewn)
     }
 
-    /// Records steps, at most as many as a frame has: for hosts whose bodies move within a frame. Maps of moving bodies show them
-    /// at the end of these steps.
+    /// Records steps of an interval of `interval` steps, at whose end the maps of moving bodies show them: a host may stop within an
+    /// interval and go on later.
     ///
     /// # Panics
-    /// When `count` is larger than the steps of a frame.
-    pub fn record_steps(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, count: u32) {
-        self.solver.record_steps(device, encoder, count);
+    /// When the steps do not lie in the interval, or the interval is longer than a frame.
+    pub fn record_steps(
+        &mut self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        steps: Range<u32>,
+        interval: u32,
+    ) {
+        self.solver.record_steps(device, encoder, steps, interval);
     }
 
     /// Records normals and status, as the end of a frame whose steps were recorded one by one.

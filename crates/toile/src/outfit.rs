@@ -240,7 +240,7 @@ impl Outfit {
             if let Some(trail) = trail {
                 trail.record_leaving(encoder);
             }
-            garment.cloth.record_steps(device, encoder, steps);
+            garment.cloth.record_steps(device, encoder, 0..steps, steps);
             if let Some(trail) = trail {
                 // The garment over this one sees it as it is now.
                 trail.record_arrival(device, encoder, interval);

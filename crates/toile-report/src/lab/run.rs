@@ -75,7 +75,7 @@ impl Run {
         let mut left = count;
         while left > 0 {
             let part = left.min(self.step.steps_per_frame);
-            self.cloth.record_steps(&lab.device, &mut encoder, part);
+            self.cloth.record_steps(&lab.device, &mut encoder, 0..part, part);
             left -= part;
         }
         self.cloth.record_outputs(&mut encoder);
