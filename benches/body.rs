@@ -61,7 +61,7 @@ fn measure(bench: &Bench, body: &Mesh) {
     };
     let model = Model::from_sheet(&sheet, &scene);
     let settings = StepSettings::new(&scene, &model);
-    let colliders = Colliders { maps: Some(Arc::new(maps)), sphere: None };
+    let colliders = Colliders { maps: Some(Arc::new(maps)), shapes: Vec::new() };
     let mut cloth = Cloth::new(&bench.device, &model, &settings, colliders).unwrap_or_else(|error| panic!("{error}"));
     for _ in 0..FRAMES {
         run(bench, |encoder| cloth.record(&bench.device, encoder));

@@ -10,7 +10,7 @@ mod support;
 use support::Bench;
 use toile::model::StepSettings;
 use toile::{Cloth, Colliders};
-use toile_workspace::{scene, sheet_model, sphere};
+use toile_workspace::{scene, shapes, sheet_model};
 
 /// Steps that are measured.
 const STEPS: usize = 20;
@@ -29,7 +29,7 @@ fn measure(bench: &Bench, name: &str, size: u32) {
     let scene = scene(name, &[("n", &size.to_string())]);
     let model = sheet_model(&scene);
     let settings = StepSettings::new(&scene.settings, &model);
-    let mut cloth = Cloth::new(&bench.device, &model, &settings, Colliders { maps: None, sphere: sphere(&scene) })
+    let mut cloth = Cloth::new(&bench.device, &model, &settings, Colliders { maps: None, shapes: shapes(&scene) })
         .unwrap_or_else(|error| panic!("{error}"));
     let cost = bench.step_cost(&mut cloth, STEPS);
     let particles = f64::from(model.particle_count());

@@ -15,7 +15,7 @@ use toile::gpu::readback;
 use toile::model::{Limit, Model, StepSettings};
 use toile::scene::{Polish, Rule, Scene, Settings, Sheet, Threshold, VelocityModification};
 use toile::{Cloth, Colliders, Strain};
-use toile_workspace::{Random, scene, sheet_model, sphere};
+use toile_workspace::{Random, scene, shapes, sheet_model};
 
 const RULES: [(&str, Rule); 3] =
     [("none", Rule::None), ("predictive", Rule::Predictive), ("hierarchical", Rule::Hierarchical)];
@@ -125,7 +125,7 @@ impl Row {
         scene.settings.fabric.threshold = Threshold::even(options.threshold);
         let model = sheet_model(&scene);
         let settings = StepSettings::new(&scene.settings, &model);
-        let colliders = Colliders { maps: None, sphere: sphere(&scene) };
+        let colliders = Colliders { maps: None, shapes: shapes(&scene) };
         let mut cloth =
             Cloth::new(&bench.device, &model, &settings, colliders).unwrap_or_else(|error| panic!("{error}"));
         let frames = options.frames.unwrap_or(if name == "moving-ball" { 240 } else { 120 });

@@ -165,11 +165,11 @@ fn status_arrives_without_waiting_or_mapping_in_the_loop() {
 fn frames_recorded_together_are_frames_recorded_one_by_one() {
     let mut ball = toile_workspace::scene("moving-ball", &[("n", "17"), ("sheet.0.corner", "[-0.5, 0.256, 0.5]")]);
     let toile_scene::Cloth::Sheet(sheet) = ball.cloths.remove(0) else { panic!("it has a sheet") };
-    let toile_scene::Body::Sphere(sphere) = ball.bodies.remove(0) else { panic!("it has a sphere") };
+    let toile_scene::Body::Shape(sphere) = ball.bodies.remove(0) else { panic!("it has a sphere") };
     let model = Model::from_sheet(&sheet, &ball.settings);
     let step = StepSettings::new(&ball.settings, &model);
     let positions = |at_once: bool| {
-        let colliders = Colliders { maps: None, sphere: Some(sphere.clone()) };
+        let colliders = Colliders { maps: None, shapes: vec![sphere.clone()] };
         let mut cloth = Cloth::new(&gpu().device, &model, &step, colliders).expect("it fits the device");
         if at_once {
             gpu().run(|encoder| (0..6).for_each(|_| cloth.record(&gpu().device, encoder)));

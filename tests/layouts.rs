@@ -23,7 +23,7 @@ macro_rules! for_every_struct {
             Contact,
             MapFrame,
             Side,
-            Ball,
+            Shape,
             Lag,
             Vertices,
             Displacement,

@@ -7,12 +7,12 @@ use toile_gpu::{Pass, Plan};
 use toile_kernels::{Kernel, TABLE};
 use toile_model::{Maps, Model, Needs, StepSettings};
 use toile_scene::{Body, Polish, Rule, Scene, Settings, Wind};
-use toile_workspace::{GARMENTS, SCENES, garment, scene, settings, sheet_model};
+use toile_workspace::{GARMENTS, SCENES, garment, scene, settings, shapes, sheet_model};
 
 fn plan(model: &Model, settings: &StepSettings, bodies: &[Body]) -> Plan {
     let maps = if bodies.iter().any(|body| matches!(body, Body::Mesh(_))) { Maps::Still } else { Maps::None };
-    let sphere = bodies.iter().any(|body| matches!(body, Body::Sphere(_)));
-    Plan::new(model, &Needs::new(model, settings, maps, sphere), settings)
+    let shapes = bodies.iter().any(|body| matches!(body, Body::Shape(_)));
+    Plan::new(model, &Needs::new(model, settings, maps, shapes), settings)
 }
 
 fn plan_of_scene(scene: &Scene) -> Plan {
@@ -24,7 +24,7 @@ fn plan_of_scene(scene: &Scene) -> Plan {
 fn plan_and_bytes(scene: &Scene) -> (Plan, BTreeMap<String, u64>) {
     let model = sheet_model(scene);
     let plan = plan_of_scene(scene);
-    let bytes = plan.buffer_sizes(&model, &StepSettings::new(&scene.settings, &model));
+    let bytes = plan.buffer_sizes(&model, &StepSettings::new(&scene.settings, &model), &shapes(scene));
     (plan, bytes)
 }
 

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use std::collections::BTreeMap;
 use toile_kernels::Kernel;
-use toile_model::{NO_CORNER, StepSettings};
+use toile_model::{NO_CORNER, ShapeKind, StepSettings};
 use toile_reference::{Contact, Probe};
 use toile_report::kernels::Input;
 
@@ -23,22 +23,27 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
         Kernel::SpringForces => {
             let lengths = || {
                 particles().flat_map(|i| {
-                    before.links.row(i).iter().map(move |l| (positions[l.other as usize] - positions[i]).length())
+                    before.model.links.row(i).iter().map(move |l| (positions[l.other as usize] - positions[i]).length())
                 })
             };
             see("is pulled", lengths().filter(|length| *length > 0.0).count());
             see("has a spring without length", lengths().filter(|length| *length == 0.0).count());
             see("has a neighbour that is no number", lengths().filter(|length| length.is_nan()).count());
-            see("has no spring", particles().filter(|i| before.links.row(*i).is_empty()).count());
+            see("has no spring", particles().filter(|i| before.model.links.row(*i).is_empty()).count());
         }
         Kernel::QuadWind => wind(before, after, &mut see),
         Kernel::WindForces => {
             let has = |i: usize, triangle: bool| {
-                before.particle_quads.row(i).iter().any(|q| (before.quads[*q as usize][3] == NO_CORNER) == triangle)
+                before
+                    .model
+                    .particle_quads
+                    .row(i)
+                    .iter()
+                    .any(|q| (before.model.quads[*q as usize][3] == NO_CORNER) == triangle)
             };
             see("has a triangle", particles().filter(|i| has(*i, true)).count());
             see("has a quad", particles().filter(|i| has(*i, false)).count());
-            see("has neither", particles().filter(|i| before.particle_quads.row(*i).is_empty()).count());
+            see("has neither", particles().filter(|i| before.model.particle_quads.row(*i).is_empty()).count());
         }
         Kernel::Reaction => {
             let pressed = |i: &usize| before.forces[*i].dot(before.contacts[*i].normal) < 0.0;
@@ -60,13 +65,14 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
         }
         Kernel::HoldEdges => {
             let bound = before.settings.hold_speed / before.settings.hold_rate;
-            let members =
-                |h: &toile_model::Hold| &before.held_particles[h.particles.start as usize..h.particles.end as usize];
+            let members = |h: &toile_model::Hold| {
+                &before.model.held_particles[h.particles.start as usize..h.particles.end as usize]
+            };
             let way = |h: &toile_model::Hold| {
                 let sum: f32 = members(h).iter().map(|i| positions[*i as usize].y).sum();
                 h.height - sum / members(h).len() as f32
             };
-            let holds = || before.holds.iter();
+            let holds = || before.model.holds.iter();
             see("is far below", holds().filter(|h| way(h) > bound).count());
             see("is far above", holds().filter(|h| way(h) < -bound).count());
             see("is near", holds().filter(|h| way(h).abs() < bound).count());
@@ -146,7 +152,7 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
             see("is longer than a workgroup", strands.iter().filter(|s| s.particles.len() > 64).count());
         }
         Kernel::LimitAttachments => {
-            let attached = |i: &usize| !before.attachments.row(*i).is_empty();
+            let attached = |i: &usize| !before.model.attachments.row(*i).is_empty();
             let pinned = |i: &usize| weights[*i] == 0.0;
             see("has none", particles().filter(|i| !attached(i)).count());
             see("is pinned", particles().filter(|i| attached(i) && pinned(i) && !changed(*i)).count());
@@ -155,8 +161,8 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
         }
         Kernel::LimitDirectional => directional(before, after, &mut see),
         Kernel::QuadMidpoints => {
-            see("is a triangle", before.quads.iter().filter(|q| q[3] == NO_CORNER).count());
-            see("is a quad", before.quads.iter().filter(|q| q[3] != NO_CORNER).count());
+            see("is a triangle", before.model.quads.iter().filter(|q| q[3] == NO_CORNER).count());
+            see("is a quad", before.model.quads.iter().filter(|q| q[3] != NO_CORNER).count());
         }
         Kernel::SampleMaps | Kernel::SampleMovingMaps => maps(before, after, &mut see),
         Kernel::MorphBody => {
@@ -177,20 +183,7 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
             see("stands still", still);
             see("moves", after.body.velocities.len() - still);
         }
-        Kernel::SampleSphere => {
-            let [points, _] = before.points();
-            let kept =
-                |i: &usize| before.after_maps && before.probes[*i].hit && same(&after.probes[*i], &before.probes[*i]);
-            let reached = |i: &usize| after.probes[*i].hit && !kept(i);
-            see("is the centre", points.iter().filter(|p| **p == before.ball.centre).count());
-            see("is reached", (0..points.len()).filter(reached).count());
-            let nearer = |i: &usize| reached(i) && before.after_maps && before.probes[*i].hit;
-            see("is nearer than the maps", (0..points.len()).filter(nearer).count());
-            let inside = |i: &usize| (points[*i] - before.ball.centre).length() < before.ball.radius;
-            see("is farther than the maps", (0..points.len()).filter(|i| kept(i) && inside(i)).count());
-            see("is not reached", (0..points.len()).filter(|i| !after.probes[*i].hit).count());
-            see("is outside but comes near", (0..points.len()).filter(|i| reached(i) && !inside(i)).count());
-        }
+        Kernel::SampleShapes => shapes(before, after, &mut see),
         Kernel::Collide => collide(before, after, &mut see),
         Kernel::MeasureExcess => {
             let above = after.polish_state.elongation_max;
@@ -198,8 +191,8 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
             let target = before.polish().target as f32;
             let at = |i: u32| positions[i as usize] + before.particles.velocities[i as usize] * before.settings.dt;
             let elongation = |l: &toile_model::Limit| (at(l.ends[1]) - at(l.ends[0])).length() / l.rest_length - 1.0;
-            see("is not above it", before.limits.iter().filter(|l| elongation(l) <= target).count());
-            see("has an end that is no number", before.limits.iter().filter(|l| elongation(l).is_nan()).count());
+            see("is not above it", before.model.limits.iter().filter(|l| elongation(l) <= target).count());
+            see("has an end that is no number", before.model.limits.iter().filter(|l| elongation(l).is_nan()).count());
         }
         Kernel::GrantSweep => {
             let [old, new] = [&before.polish_state, &after.polish_state];
@@ -224,20 +217,20 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
         Kernel::TotalEnergy => see("adds", before.energy_partials.len()),
         Kernel::LimitStatus => {
             see("is over-long", after.status.over_long_count as usize);
-            see("is not over-long", before.limits.len() - after.status.over_long_count as usize);
+            see("is not over-long", before.model.limits.len() - after.status.over_long_count as usize);
             let at_rest = |l: &&toile_model::Limit| {
                 let [a, b] = l.ends.map(|end| positions[end as usize]);
                 (b - a).length() == l.rest_length
             };
-            see("is at rest", before.limits.iter().filter(at_rest).count());
+            see("is at rest", before.model.limits.iter().filter(at_rest).count());
         }
         Kernel::LongestLimit => {
             let longest = after.status.longest_limit;
             see("is the longest", usize::from(longest > 0));
-            see("is not the longest", before.limits.len() - 1);
+            see("is not the longest", before.model.limits.len() - 1);
         }
         Kernel::SeamStatus => {
-            let gaps = before.seam_pairs.iter().map(|s| s.ends.map(|end| positions[end as usize]));
+            let gaps = before.model.seam_pairs.iter().map(|s| s.ends.map(|end| positions[end as usize]));
             see("is no number", gaps.filter(|[a, b]| (*b - *a).is_nan()).count());
             see("has a gap", usize::from(f32::from_bits(after.status.seam_gap_max) > 0.0));
         }
@@ -312,7 +305,7 @@ fn wind(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize)
         "is no number",
     ];
     let mut counts = [0; 7];
-    for (&[a, b, c, d], force) in before.quads.iter().zip(&after.quad_winds) {
+    for (&[a, b, c, d], force) in before.model.quads.iter().zip(&after.quad_winds) {
         let corner = |i: u32| particles.positions[i as usize];
         let corners: Vec<u32> = [a, b, c, d].into_iter().filter(|i| *i != NO_CORNER).collect();
         let middle = corners.iter().map(|i| particles.velocities[*i as usize]).sum::<Vec3>() / corners.len() as f32;
@@ -378,6 +371,59 @@ fn maps(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize)
     names.into_iter().zip(counts).for_each(|(name, count)| see(name, count));
 }
 
+fn shapes(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize)) {
+    let [points, velocities] = before.points();
+    let all = || 0..points.len();
+    let kept = |i: &usize| before.after_maps && before.probes[*i].hit && same(&after.probes[*i], &before.probes[*i]);
+    let reached = |i: &usize| after.probes[*i].hit && !kept(i);
+    let inside = |i: &usize| {
+        before
+            .shapes
+            .iter()
+            .any(|shape| shape.kind == ShapeKind::Sphere && (points[*i] - shape.centre).length() < shape.radius)
+    };
+    see("is the centre", points.iter().filter(|p| **p == before.shapes[0].centre).count());
+    see("is reached", all().filter(reached).count());
+    see("is nearer than the maps", all().filter(|i| reached(i) && before.after_maps && before.probes[*i].hit).count());
+    see("is farther than the maps", all().filter(|i| kept(i) && inside(i)).count());
+    see("is not reached", all().filter(|i| !after.probes[*i].hit).count());
+    see("is outside but comes near", all().filter(|i| reached(i) && !inside(i)).count());
+    // What each shape alone would say.
+    let alone: Vec<Vec<Probe>> = before
+        .shapes
+        .iter()
+        .map(|shape| {
+            let mut probes = vec![Probe::default(); points.len()];
+            toile_reference::step::sample_shapes(&mut probes, &points, &velocities, &[*shape], &before.settings);
+            probes
+        })
+        .collect();
+    let equal = |i: &usize| {
+        let answer = &after.probes[*i];
+        alone
+            .iter()
+            .filter(|probes| probes[*i].hit && probes[*i].distance == answer.distance)
+            .map(|probes| probes[*i])
+            .collect::<Vec<_>>()
+    };
+    let differ = |i: &usize, by: fn(&Probe) -> Vec3| equal(i).windows(2).any(|pair| by(&pair[0]) != by(&pair[1]));
+    see("is as near to two shapes", all().filter(|i| reached(i) && differ(i, |probe| probe.normal)).count());
+    see(
+        "is at two shapes that move differently",
+        all().filter(|i| reached(i) && !differ(i, |probe| probe.normal) && differ(i, |probe| probe.velocity)).count(),
+    );
+    for order in
+        [before.shapes.iter().rev().copied().collect::<Vec<_>>(), [&before.shapes[2..], &before.shapes[..2]].concat()]
+    {
+        let mut probes = if before.after_maps { before.probes.clone() } else { vec![Probe::default(); points.len()] };
+        toile_reference::step::sample_shapes(&mut probes, &points, &velocities, &order, &before.settings);
+        assert!(
+            probes.iter().zip(&after.probes).all(|(one, other)| same(one, other)),
+            "the order of the shapes does not matter"
+        );
+    }
+}
+
 fn collide(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize)) {
     let settings = &before.settings;
     let papers = settings.law != toile_scene::Friction::Coulomb;
@@ -407,6 +453,7 @@ fn collide(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usi
         let own = after.contacts[i].touching;
         assert!(own || after.contacts[i] == Contact::default(), "a contact ends when nothing is touched");
         let quads = before
+            .model
             .particle_quads
             .row(i)
             .iter()

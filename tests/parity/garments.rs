@@ -24,7 +24,7 @@ fn dress(name: &str) {
     assert_eq!(settings.fabric, Fabric::preset("cotton").expect("cotton is a preset"));
     let layers = layers(&settings);
     let open = Model::from_garment(&garment(name), &settings).unwrap_or_else(|error| panic!("{error}"));
-    let mut life = Life::new(&open, &StepSettings::new(&settings, &open).sewing(), Some(layers), None);
+    let mut life = Life::new(&open, &StepSettings::new(&settings, &open).sewing(), Some(layers), Vec::new());
     let (_, gap) = open.widest_seam(&open.positions).expect("a garment has seams");
     let status = life.agree(&format!("{name} open"), FRAMES);
     assert!(status.seam_gap_max < gap, "{name}: its seams close, from {gap} m to {} m", status.seam_gap_max);

@@ -3,7 +3,7 @@
 use toile_gpu::{Colliders, Solver};
 use toile_model::{Merge, Model, Status, StepSettings};
 use toile_reference::Reference;
-use toile_scene::Sphere;
+use toile_scene::Shape;
 use toile_workspace::{Layers, arrived, first_difference, gpu, vec3_words};
 
 /// The same cloth on the device and in the reference.
@@ -15,11 +15,11 @@ pub struct Life {
 }
 
 impl Life {
-    pub fn new(model: &Model, settings: &StepSettings, layers: Option<&Layers>, sphere: Option<Sphere>) -> Self {
-        let colliders = Colliders { maps: layers.map(|layers| layers.maps.as_ref()), sphere: sphere.clone() };
+    pub fn new(model: &Model, settings: &StepSettings, layers: Option<&Layers>, shapes: Vec<Shape>) -> Self {
+        let colliders = Colliders { maps: layers.map(|layers| layers.maps.as_ref()), shapes: shapes.clone() };
         let solver = Solver::new(&gpu().device, model, settings, colliders).expect("the model fits the device");
         let maps = layers.map(|layers| layers.read.clone());
-        let reference = Reference::new(model, settings, toile_reference::Colliders { maps, sphere });
+        let reference = Reference::new(model, settings, toile_reference::Colliders { maps, shapes });
         Self { solver, reference, contacts_max: 0 }
     }
 
@@ -83,7 +83,7 @@ impl Life {
 
     /// The handover to the sewn model on both sides.
     pub fn sewn(self, model: &Model, merge: &Merge, settings: &StepSettings, layers: Option<&Layers>) -> Self {
-        let colliders = Colliders { maps: layers.map(|layers| layers.maps.as_ref()), sphere: None };
+        let colliders = Colliders { maps: layers.map(|layers| layers.maps.as_ref()), shapes: Vec::new() };
         let mut solver = Solver::new(&gpu().device, model, settings, colliders).expect("the model fits the device");
         gpu().run(|encoder| solver.record_merge(&gpu().device, encoder, &self.solver, merge));
         Self { solver, reference: self.reference.sewn(model, settings, merge), contacts_max: 0 }

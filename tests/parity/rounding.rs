@@ -50,15 +50,15 @@ fn worn_strands() -> Input {
     let count = COUNT * input.span.len() as u32;
     let first = input.span.start;
     input.particles.velocities.fill(Vec3::ZERO);
-    input.strand_particles = (0..count).collect();
-    input.strand_lengths.clear();
-    input.strands = (0..input.span.end)
+    input.model.strand_particles = (0..count).collect();
+    input.model.strand_lengths.clear();
+    input.model.strands = (0..input.span.end)
         .map(|k| {
             let start = k.saturating_sub(first) * COUNT;
-            let lengths = input.strand_lengths.len() as u32;
+            let lengths = input.model.strand_lengths.len() as u32;
             for level in 0..4 {
                 let reach = 1 << level;
-                input.strand_lengths.extend((reach..COUNT).map(|_| 0.03 * reach as f32));
+                input.model.strand_lengths.extend((reach..COUNT).map(|_| 0.03 * reach as f32));
             }
             Strand { particles: start..start + COUNT, stride: 1, lengths, level_count: 4 }
         })

@@ -4,7 +4,7 @@ use crate::life::Life;
 use toile::Cloth;
 use toile_model::StepSettings;
 use toile_scene::{Friction, Mesh, Polish, Rule, VelocityModification, Wind};
-use toile_workspace::{Layers, arrived, finish_frame, first_difference, gpu, scene, sheet_model, sphere, vec3_words};
+use toile_workspace::{Layers, arrived, finish_frame, first_difference, gpu, scene, shapes, sheet_model, vec3_words};
 
 #[test]
 fn a_hanging_sheet_agrees_under_every_rule() {
@@ -14,7 +14,7 @@ fn a_hanging_sheet_agrees_under_every_rule() {
             hang.settings.velocity_modification =
                 VelocityModification { sweeps: Some(3), ..VelocityModification::new(rule) };
             let model = sheet_model(&hang);
-            let mut life = Life::new(&model, &StepSettings::new(&hang.settings, &model), None, None);
+            let mut life = Life::new(&model, &StepSettings::new(&hang.settings, &model), None, Vec::new());
             let status = life.agree(&format!("hang {n} {rule:?}"), 20);
             assert!(status.elongation_max > 0.0, "the sheet hangs");
         }
@@ -35,7 +35,7 @@ fn a_sheet_on_a_sphere_agrees_under_every_rule_and_both_friction_laws() {
                     VelocityModification { sweeps: Some(3), ..VelocityModification::new(rule) };
                 ball.settings.friction = law;
                 let model = sheet_model(&ball);
-                let mut life = Life::new(&model, &StepSettings::new(&ball.settings, &model), None, sphere(&ball));
+                let mut life = Life::new(&model, &StepSettings::new(&ball.settings, &model), None, shapes(&ball));
                 life.agree(&format!("{name} {rule:?} {law:?}"), 15);
                 assert!(life.contacts_max > 0, "{name} {rule:?}: the sheet touches the sphere");
             }
@@ -50,7 +50,7 @@ fn a_sheet_that_its_guard_holds_agrees() {
     let ball = scene("ball", &hard);
     let model = sheet_model(&ball);
     let settings = StepSettings { guard_passes: 4, ..StepSettings::new(&ball.settings, &model) };
-    Life::new(&model, &settings, None, sphere(&ball)).agree("ball, four passes of the guard", 10);
+    Life::new(&model, &settings, None, shapes(&ball)).agree("ball, four passes of the guard", 10);
 }
 
 #[test]
@@ -64,7 +64,7 @@ fn a_polished_sheet_agrees_where_it_holds_and_where_it_misses() {
         hard.settings.velocity_modification =
             VelocityModification { polish: Some(Polish { target, sweeps: 2 }), ..VelocityModification::new(rule) };
         let model = sheet_model(&hard);
-        let mut life = Life::new(&model, &StepSettings::new(&hard.settings, &model), None, sphere(&hard));
+        let mut life = Life::new(&model, &StepSettings::new(&hard.settings, &model), None, shapes(&hard));
         let status = life.agree(&format!("{name} {rule:?}, polished"), 10);
         let steps = status.step as u32;
         assert!(status.missed_steps > 0 && status.missed_steps < steps, "{status:?}");
@@ -79,7 +79,7 @@ fn a_sheet_in_wind_agrees_hanging_and_on_a_sphere() {
         let model = sheet_model(&windy);
         windy.settings.wind = Some(Wind::new(velocity));
         let settings = StepSettings::new(&windy.settings, &model);
-        Life::new(&model, &settings, None, sphere(&windy)).agree(&format!("{name} in wind"), 20);
+        Life::new(&model, &settings, None, shapes(&windy)).agree(&format!("{name} in wind"), 20);
     }
 }
 
@@ -90,7 +90,7 @@ fn a_sheet_on_maps_and_a_sphere_together_agrees() {
     let settings = StepSettings::new(&ball.settings, &model);
     let body = Mesh::sphere(glam::vec3(0.2, 0.05, 0.0), 0.2, 24);
     let layers = Layers::draw(gpu(), &[(&body, settings.thickness)], 0.01).expect("the device answers");
-    let mut life = Life::new(&model, &settings, Some(&layers), sphere(&ball));
+    let mut life = Life::new(&model, &settings, Some(&layers), shapes(&ball));
     life.agree("a sphere and maps", 15);
     assert!(life.contacts_max > 4, "{} contacts", life.contacts_max);
 }
@@ -103,9 +103,9 @@ fn whole_frames_of_a_simulation_agree() {
         let scene = if name == "hang" { scene(name, &[("n", "17")]) } else { scene(name, &[("n", "17"), lower]) };
         let model = sheet_model(&scene);
         let settings = StepSettings::new(&scene.settings, &model);
-        let colliders = toile::Colliders { maps: None, sphere: sphere(&scene) };
+        let colliders = toile::Colliders { maps: None, shapes: shapes(&scene) };
         let mut cloth = Cloth::new(&gpu().device, &model, &settings, colliders).expect("it fits");
-        let colliders = toile_reference::Colliders { maps: None, sphere: sphere(&scene) };
+        let colliders = toile_reference::Colliders { maps: None, shapes: shapes(&scene) };
         let mut reference = toile_reference::Reference::new(&model, &settings, colliders);
         for _ in 0..3 {
             gpu().run(|encoder| (0..5).for_each(|_| cloth.record(&gpu().device, encoder)));
@@ -123,7 +123,7 @@ fn a_force_of_the_wrong_sign_is_seen_in_the_first_step() {
     let hang = scene("hang", &[("n", "16")]);
     let model = sheet_model(&hang);
     let settings = StepSettings::new(&hang.settings, &model);
-    let mut life = Life::new(&model, &settings, None, None);
+    let mut life = Life::new(&model, &settings, None, Vec::new());
     let upward = StepSettings { gravity: -settings.gravity, ..settings };
     life.reference = toile_reference::Reference::new(&model, &upward, Default::default());
     gpu().run(|encoder| life.solver.record_steps(&gpu().device, encoder, 0..1, 1));

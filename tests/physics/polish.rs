@@ -3,8 +3,8 @@
 use glam::Vec3;
 use toile::Cloth;
 use toile_model::{Model, Status, StepSettings};
-use toile_scene::{Polish, Settings, Sphere};
-use toile_workspace::{Random, advance, gpu, scene, sheet_model, sphere};
+use toile_scene::{Polish, Settings, Shape};
+use toile_workspace::{Random, advance, gpu, scene, shapes, sheet_model};
 
 /// How a scene went.
 struct Run {
@@ -17,9 +17,9 @@ struct Run {
     steps: u32,
 }
 
-fn run(model: &Model, settings: &Settings, polish: Option<Polish>, sphere: Option<Sphere>, frames: u32) -> Run {
+fn run(model: &Model, settings: &Settings, polish: Option<Polish>, shapes: Vec<Shape>, frames: u32) -> Run {
     let settings = StepSettings { polish, ..StepSettings::new(settings, model) };
-    let colliders = toile::Colliders { maps: None, sphere };
+    let colliders = toile::Colliders { maps: None, shapes };
     let mut cloth = Cloth::new(&gpu().device, model, &settings, colliders).expect("it fits the device");
     let mut elongation_max: f32 = 0.0;
     let mut status = Status::default();
@@ -41,7 +41,7 @@ fn a_polish_holds_a_target_that_the_sweeps_of_a_step_do_not() {
     let model = sheet_model(&ball);
     let target = 0.0075;
     let [without, with] = [None, Some(Polish { target, sweeps: 16 })]
-        .map(|polish| run(&model, &ball.settings, polish, sphere(&ball), 10));
+        .map(|polish| run(&model, &ball.settings, polish, shapes(&ball), 10));
     assert!(f64::from(without.elongation_max) > 1.2 * target, "{}", without.elongation_max);
     assert_eq!([without.status.further_sweeps, without.status.missed_steps], [0, 0]);
     // The move rounds what was measured before it.
@@ -56,7 +56,7 @@ fn a_step_that_holds_the_target_moves_as_without_a_polish() {
     let hang = scene("hang", &[("n", "24")]);
     let model = sheet_model(&hang);
     let polish = Some(Polish { target: 0.06, sweeps: 4 });
-    let [without, with] = [None, polish].map(|polish| run(&model, &hang.settings, polish, None, 15));
+    let [without, with] = [None, polish].map(|polish| run(&model, &hang.settings, polish, Vec::new(), 15));
     assert!(with.elongation_max > 0.03, "its limits act: {}", with.elongation_max);
     assert_eq!([with.status.further_sweeps, with.status.missed_steps], [0, 0]);
     assert_eq!(with.positions, without.positions);
@@ -68,7 +68,8 @@ fn a_target_that_cannot_be_held_is_missed_in_bounded_work() {
     let mut model = sheet_model(&hang);
     let pin = (0..model.positions.len()).rfind(|i| model.inverse_masses[*i] == 0.0).expect("two pins");
     model.positions[pin].x += 0.2;
-    let Run { status, steps, .. } = run(&model, &hang.settings, Some(Polish { target: 0.06, sweeps: 3 }), None, 3);
+    let Run { status, steps, .. } =
+        run(&model, &hang.settings, Some(Polish { target: 0.06, sweeps: 3 }), Vec::new(), 3);
     assert_eq!([status.further_sweeps, status.missed_steps], [3 * steps, steps]);
 }
 

@@ -4,7 +4,7 @@ use glam::Vec3;
 use toile::Cloth;
 use toile_model::StepSettings;
 use toile_scene::{Rule, Threshold, VelocityModification};
-use toile_workspace::{SCENES, advance, gpu, scene, sheet_model, sphere};
+use toile_workspace::{SCENES, advance, gpu, scene, shapes, sheet_model};
 
 /// Frames until the falling sheet has slapped around its sphere, and the other one is carried along by its own.
 const FRAMES: u32 = 40;
@@ -25,7 +25,7 @@ fn stretch(name: &str, n: u32, rule: Rule, threshold: f64) -> Stretch {
     let model = sheet_model(&scene);
     let settings = StepSettings::new(&scene.settings, &model);
     assert!(settings.steps_per_frame <= 16 && settings.sweeps <= 4, "{name}");
-    let colliders = toile::Colliders { maps: None, sphere: sphere(&scene) };
+    let colliders = toile::Colliders { maps: None, shapes: shapes(&scene) };
     let mut cloth = Cloth::new(&gpu().device, &model, &settings, colliders).expect("it fits the device");
     let mut stretch = Stretch { over_run: 0.0, over_long: 0.0 };
     for _ in 0..FRAMES {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use toile_files::{BodyOptions, read_body, read_garment, read_scene};
 use toile_model::Model;
-use toile_scene::{Body, Cloth, Fabric, Garment, Mesh, Scene, Settings, Sphere};
+use toile_scene::{Body, Cloth, Fabric, Garment, Mesh, Scene, Settings, Shape};
 
 /// Names of the scenes in `fixtures/scenes`.
 pub const SCENES: [&str; 3] = ["hang", "ball", "moving-ball"];
@@ -32,12 +32,13 @@ pub fn sheet_model(scene: &Scene) -> Model {
     Model::from_sheet(sheet, &scene.settings)
 }
 
-/// The sphere of a scene, if it has one.
-pub fn sphere(scene: &Scene) -> Option<Sphere> {
-    scene.bodies.iter().find_map(|body| match body {
-        Body::Sphere(sphere) => Some(sphere.clone()),
+/// The shapes of a scene.
+pub fn shapes(scene: &Scene) -> Vec<Shape> {
+    let shape = |body: &Body| match body {
+        Body::Shape(shape) => Some(shape.clone()),
         Body::Mesh(_) | Body::Moving(_) => None,
-    })
+    };
+    scene.bodies.iter().filter_map(shape).collect()
 }
 
 /// A garment by name.

@@ -8,7 +8,7 @@ mod gpu;
 
 pub use compute::Compute;
 pub use drive::{advance, arrived, finish_frame};
-pub use fixtures::{GARMENTS, SCENES, body, fixture, garment, scene, settings, sheet_model, sheet_settings, sphere};
+pub use fixtures::{GARMENTS, SCENES, body, fixture, garment, scene, settings, shapes, sheet_model, sheet_settings};
 pub use gpu::{Gpu, INSTALL_HINT, gpu, lab};
 pub use toile_report::kernels::{Difference, first_difference, vec3_words};
 pub use toile_report::shapes::without_triangles;

@@ -23,6 +23,7 @@ struct StepParams {
     guard_way: f32,             // how much the guard shortens a spring at once [m]
     aim: f32,                   // part of the threshold that the limits hold
     limit_count: u32,           // structural and shear springs, whose limits are the first
+    after_maps: u32,            // 1: probes already hold what points see in the maps when the shapes are sampled
 }
 
 const COULOMB: u32 = 0u;

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use toile::gpu::{BodyMaps, Kernel, PassTime, Surface, Timer, readback};
 use toile::model::{MapFrame, Merge, Model, Status, StepSettings};
-use toile::scene::{Mesh, Sphere};
+use toile::scene::{Mesh, Shape};
 use toile::{Cloth, Colliders};
 use toile_reference::Reference;
 use toile_reference::maps::{self as reference_maps, render_maps};
@@ -70,13 +70,13 @@ impl Computer {
         model: &Model,
         settings: &StepSettings,
         layers: &[Layer],
-        sphere: Option<Sphere>,
+        shapes: Vec<Shape>,
         texel: f32,
     ) -> Result<Engine<'_>> {
         match self {
             Computer::Gpu(gpu) => {
                 let maps = if layers.is_empty() { None } else { Some(Arc::new(draw_maps(gpu, layers, texel)?)) };
-                let cloth = Cloth::new(&gpu.device, model, settings, Colliders { maps, sphere })?;
+                let cloth = Cloth::new(&gpu.device, model, settings, Colliders { maps, shapes })?;
                 Ok(Engine::Gpu { gpu, cloth: Box::new(cloth) })
             }
             Computer::Reference => {
@@ -89,7 +89,7 @@ impl Computer {
                     })
                     .collect();
                 let maps = (!surfaces.is_empty()).then(|| render_maps(&surfaces, texel));
-                let colliders = toile_reference::Colliders { maps, sphere };
+                let colliders = toile_reference::Colliders { maps, shapes };
                 Ok(Engine::Reference(Box::new(Reference::new(model, settings, colliders))))
             }
         }

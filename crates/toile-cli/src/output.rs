@@ -7,13 +7,10 @@ use anyhow::{Context, Result, bail};
 use std::fs;
 use std::path::Path;
 use toile::files::{NamedMesh, write_atomically, write_glb, write_obj};
-use toile::scene::{Mesh, Sphere};
+use toile::scene::Mesh;
 
 /// Height of the pictures [px].
 const PICTURE_HEIGHT: u32 = 1000;
-
-/// Parallels of a sphere in pictures and files.
-const SPHERE_PARALLELS: u32 = 48;
 
 /// A mesh of the result and its name.
 #[derive(Clone, Copy)]
@@ -22,11 +19,6 @@ pub struct Shown<'a> {
     pub name: &'a str,
     /// The mesh.
     pub mesh: &'a Mesh,
-}
-
-/// A sphere at a time [s] as a mesh; the simulation knows it exactly.
-pub fn sphere_mesh(sphere: &Sphere, time: f64) -> Mesh {
-    Mesh::sphere(sphere.at(time).0.as_vec3(), sphere.radius as f32, SPHERE_PARALLELS)
 }
 
 /// An error when the results could not be written to a folder: better now than after the run. Leaves nothing behind.

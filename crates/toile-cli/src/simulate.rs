@@ -10,14 +10,14 @@ use crate::worn::{self, Surroundings, Worn};
 use anyhow::{Result, bail};
 use toile::files::SceneFile;
 use toile::model::Model;
-use toile::scene::{Body, Cloth, Scene, Sphere};
+use toile::scene::{Body, Cloth, Scene, Shape};
 
 /// Simulates a scene: garments are dressed one after another, sheets run for a number of frames. Writes the results.
 pub fn simulate(file: &SceneFile, running: &Running) -> Result<()> {
     let scene = &file.scene;
     output::check(&running.out)?;
     check_bodies(scene)?;
-    let sphere = sphere(scene)?;
+    let shapes = shapes(scene);
     if !running.quiet {
         for warning in &file.warnings {
             eprintln!("warning: {warning}");
@@ -34,8 +34,8 @@ pub fn simulate(file: &SceneFile, running: &Running) -> Result<()> {
     let mut all: Vec<Worn> = Vec::new();
     let mut measured = Vec::new();
     for cloth in &scene.cloths {
-        let sphere = sphere.clone();
-        let around = Surroundings { computer: &computer, layers: &layers, sphere, texel, quiet: running.quiet };
+        let shapes = shapes.clone();
+        let around = Surroundings { computer: &computer, layers: &layers, shapes, texel, quiet: running.quiet };
         let worn = match cloth {
             Cloth::Garment(garment) => worn::dress(garment, &scene.settings, &around)?,
             Cloth::Sheet(sheet) => {
@@ -51,9 +51,9 @@ pub fn simulate(file: &SceneFile, running: &Running) -> Result<()> {
         all.push(worn);
     }
     let metrics = Metrics::new(&scene.name, computer.name(), measured);
-    let ball = sphere.as_ref().map(|sphere| output::sphere_mesh(sphere, end(&all)));
+    let shape_meshes: Vec<_> = shapes.iter().map(|shape| (shape.name(), shape.mesh(end(&all)))).collect();
     let mut bodies: Vec<Shown<'_>> = meshes(scene).map(|mesh| Shown { name: "body", mesh }).collect();
-    bodies.extend(ball.as_ref().map(|mesh| Shown { name: "sphere", mesh }));
+    bodies.extend(shape_meshes.iter().map(|(name, mesh)| Shown { name, mesh }));
     let cloths: Vec<Shown<'_>> = all.iter().map(|worn| Shown { name: &worn.name, mesh: &worn.mesh }).collect();
     let thickness = scene.settings.fabric.thickness;
     output::write_whole(&running.out, |folder| output::write(folder, &bodies, &cloths, thickness, &metrics))?;
@@ -83,22 +83,17 @@ pub fn check_bodies(scene: &Scene) -> Result<()> {
 fn meshes(scene: &Scene) -> impl Iterator<Item = &toile::scene::Mesh> {
     scene.bodies.iter().filter_map(|body| match body {
         Body::Mesh(mesh) => Some(mesh),
-        Body::Moving(_) | Body::Sphere(_) => None,
+        Body::Moving(_) | Body::Shape(_) => None,
     })
 }
 
-/// The sphere of a scene. The kernels know one; a second one would silently be missing.
-pub fn sphere(scene: &Scene) -> Result<Option<Sphere>> {
-    let mut spheres = scene.bodies.iter().filter_map(|body| match body {
-        Body::Sphere(sphere) => Some(sphere.clone()),
+/// The shapes of a scene.
+pub fn shapes(scene: &Scene) -> Vec<Shape> {
+    let shape = |body: &Body| match body {
+        Body::Shape(shape) => Some(shape.clone()),
         Body::Mesh(_) | Body::Moving(_) => None,
-    });
-    match (spheres.next(), spheres.count()) {
-        (first, 0) => Ok(first),
-        (_, more) => {
-            bail!("scene {} has {} spheres, and a scene can have one: remove the others", scene.name, more + 1)
-        }
-    }
+    };
+    scene.bodies.iter().filter_map(shape).collect()
 }
 
 /// Simulated time at the end of the last cloth [s].

@@ -145,7 +145,7 @@ fn dress(walk: &Walk, computer: &Computer, quiet: bool) -> Result<Vec<GarmentSta
     let mut layers = vec![Layer { mesh: body.mesh.clone(), thickness }];
     let mut states = Vec::new();
     for garment in &walk.garments {
-        let around = Surroundings { computer, layers: &layers, sphere: None, texel, quiet };
+        let around = Surroundings { computer, layers: &layers, shapes: Vec::new(), texel, quiet };
         let worn = worn::dress(garment, &walk.settings, &around)?;
         states.push(GarmentState::at_rest(&worn.mesh.positions));
         layers.push(Layer { mesh: worn.mesh, thickness });

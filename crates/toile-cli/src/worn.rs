@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 use toile::gpu::PassTime;
 use toile::model::{Dressing, DressingError, Merge, Model, Stage, Status, StepSettings};
-use toile::scene::{Garment, Mesh, Settings, Sphere};
+use toile::scene::{Garment, Mesh, Settings, Shape};
 
 /// A cloth that has been simulated.
 pub struct Worn {
@@ -54,8 +54,8 @@ pub struct Surroundings<'a> {
     pub computer: &'a Computer,
     /// Body and inner garments.
     pub layers: &'a [Layer],
-    /// An analytic sphere.
-    pub sphere: Option<Sphere>,
+    /// Analytic shapes.
+    pub shapes: Vec<Shape>,
     /// Edge length of a map texel [m].
     pub texel: f32,
     /// No progress.
@@ -84,7 +84,7 @@ pub fn dress(garment: &Garment, settings: &Settings, around: &Surroundings<'_>) 
     let open = Model::from_garment(garment, settings)?;
     let open_settings = step_settings(&garment.name, settings, &open)?.sewing();
     let mut engine =
-        around.computer.start(&open, &open_settings, around.layers, around.sphere.clone(), around.texel)?;
+        around.computer.start(&open, &open_settings, around.layers, around.shapes.clone(), around.texel)?;
     let mut dressing = Dressing::new(&open, &open_settings);
     let mut log = Log::default();
     let progress = Progress::new(&garment.name, around.quiet);
@@ -123,7 +123,7 @@ pub fn dress(garment: &Garment, settings: &Settings, around: &Surroundings<'_>) 
 /// Runs a cloth without seams for a number of frames.
 pub fn run(name: &str, model: Model, frames: u32, settings: &Settings, around: &Surroundings<'_>) -> Result<Worn> {
     let settings = step_settings(name, settings, &model)?;
-    let mut engine = around.computer.start(&model, &settings, around.layers, around.sphere.clone(), around.texel)?;
+    let mut engine = around.computer.start(&model, &settings, around.layers, around.shapes.clone(), around.texel)?;
     let mut log = Log::default();
     let progress = Progress::new(name, around.quiet);
     for frame in 1..=frames {

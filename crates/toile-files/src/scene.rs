@@ -74,7 +74,7 @@ fn convert(toml: SceneToml, stem: &str, folder: &Path) -> Result<SceneFile, Prob
         warnings.extend(new_warnings);
     }
     for (index, sphere) in toml.sphere.iter().enumerate() {
-        bodies.push(Body::Sphere(scene_body::convert_sphere(index, sphere)?));
+        bodies.push(Body::Shape(scene_body::convert_sphere(index, sphere)?));
     }
     let frames = toml.frames.unwrap_or(FRAMES);
     if frames == 0 {

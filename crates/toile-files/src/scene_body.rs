@@ -7,10 +7,10 @@ use crate::gltf_rig::DURATION_MAX;
 use crate::mesh_sequence::read_mesh_sequence;
 use crate::moving_body::read_moving_body;
 use crate::scene::{SIZES, vector, within, wrong};
-use crate::scene_toml::{BodyToml, KeyToml, SphereToml, UnitsToml};
+use crate::scene_toml::{BodyToml, KeyToml, SphereToml, SwingToml, UnitsToml};
 use glam::{DQuat, DVec3};
 use std::path::Path;
-use toile_scene::{Body, MovingMesh, RigidKey, RigidMotion, Settings, Sphere, SphereMotion};
+use toile_scene::{Body, MovingMesh, RigidKey, RigidMotion, Settings, Shape, ShapeMotion};
 
 /// Reads a body of a scene; the second part is what is unusual about it.
 pub(crate) fn convert_body(index: usize, toml: &BodyToml, folder: &Path) -> Result<(Body, Vec<String>), Problem> {
@@ -66,19 +66,28 @@ pub(crate) fn convert_body(index: usize, toml: &BodyToml, folder: &Path) -> Resu
 }
 
 /// Converts a sphere of a scene.
-pub(crate) fn convert_sphere(index: usize, toml: &SphereToml) -> Result<Sphere, Found> {
+pub(crate) fn convert_sphere(index: usize, toml: &SphereToml) -> Result<Shape, Found> {
     let key = |name: &str| format!("sphere.{index}.{name}");
-    let motion = match (&toml.swing, &toml.keys) {
-        (None, None) => SphereMotion::Still,
-        (Some(_), Some(_)) => return Err(wrong(&key("keys"), "give either swing or keys, not both")),
-        (Some(swing), None) => SphereMotion::Swing {
+    let motion = convert_motion(&key, &toml.swing, &toml.keys)?;
+    let radius = within(&key("radius"), toml.radius, SIZES, "m")?;
+    Ok(Shape { motion, ..Shape::sphere(vector(&key("centre"), toml.centre)?, radius) })
+}
+
+/// Converts the motion of a shape, whose keys `key` names.
+fn convert_motion(
+    key: &impl Fn(&str) -> String,
+    swing: &Option<SwingToml>,
+    keys: &Option<Vec<KeyToml>>,
+) -> Result<ShapeMotion, Found> {
+    match (swing, keys) {
+        (None, None) => Ok(ShapeMotion::Still),
+        (Some(_), Some(_)) => Err(wrong(&key("keys"), "give either swing or keys, not both")),
+        (Some(swing), None) => Ok(ShapeMotion::Swing {
             amplitude: vector(&key("swing.amplitude"), swing.amplitude)?,
             period: within(&key("swing.period"), swing.period, SIZES, "s")?,
-        },
-        (None, Some(keys)) => SphereMotion::Keys(RigidMotion { keys: convert_keys(&key("keys"), keys)? }),
-    };
-    let radius = within(&key("radius"), toml.radius, SIZES, "m")?;
-    Ok(Sphere { centre: vector(&key("centre"), toml.centre)?, radius, motion })
+        }),
+        (None, Some(keys)) => Ok(ShapeMotion::Keys(RigidMotion { keys: convert_keys(&key("keys"), keys)? })),
+    }
 }
 
 fn convert_keys(key: &str, toml: &[KeyToml]) -> Result<Vec<RigidKey>, Found> {

@@ -1,44 +1,58 @@
 //! The buffers of a plan: those that its kernels name, and no other.
 
-use crate::{GpuError, Plan, step_params};
-use encase::{ShaderType, StorageBuffer, UniformBuffer, internal::WriteInto};
-use glam::{Vec3, Vec4};
+use crate::contents::{constant, encoded, lag, uniform, words};
+use crate::{GpuError, Plan};
 use std::collections::BTreeMap;
-use toile_kernels::{Binding, Interface, Resource, WORKGROUP_SIZE, structs};
-use toile_model::{Model, StepSettings};
-use toile_scene::Polish;
+use toile_kernels::{Binding, Interface, Per, Resource, Role, WORKGROUP_SIZE, buffer_row};
+use toile_model::{Model, ShapeStep, StepSettings};
+use toile_scene::Shape;
 use wgpu::util::DeviceExt;
 
-/// Bytes from one entry of a moving uniform to the next: the alignment that every WebGPU device accepts.
-pub(crate) const MOVING_UNIFORM_STRIDE: u64 = 256;
+/// Bytes of which each entry of a buffer with entries is a multiple: the alignment that every WebGPU device accepts.
+const ENTRY_ALIGNMENT: u64 = 256;
 
-/// Bytes from one entry of `sweep_dispatches` to the next: three words for the dispatch, and one that fills the vec4.
-pub(crate) const DISPATCH_STRIDE: u64 = 16;
+/// What the buffers of a cloth are made of.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Start<'a> {
+    pub(crate) model: &'a Model,
+    pub(crate) settings: &'a StepSettings,
+    pub(crate) plan: &'a Plan,
+    pub(crate) shapes: &'a [Shape],
+    /// Whether shapes are sampled after maps.
+    pub(crate) after_maps: bool,
+}
 
 /// Buffers by the global name that the kernels give them.
 #[derive(Debug)]
 pub(crate) struct Buffers {
-    by_name: BTreeMap<String, wgpu::Buffer>,
+    by_name: BTreeMap<&'static str, Made>,
+}
+
+#[derive(Debug)]
+struct Made {
+    buffer: wgpu::Buffer,
+    role: Role,
+    /// Bytes that a dispatch sees, and from one entry to the next.
+    seen: u64,
+    stride: u64,
 }
 
 impl Buffers {
     /// Creates and fills the buffers that these bindings name.
     pub(crate) fn new<'a>(
         device: &wgpu::Device,
-        model: &Model,
-        settings: &StepSettings,
-        plan: &Plan,
+        start: Start<'_>,
         bindings: impl Iterator<Item = &'a Binding>,
     ) -> Result<Self, GpuError> {
         let mut by_name = BTreeMap::new();
         let most = device.limits().max_storage_buffer_binding_size;
         for (name, resource) in named(bindings) {
-            let contents = contents(name, model, settings, plan);
-            let size = contents.size();
-            if size > most {
-                return Err(GpuError::BufferTooLarge { name: name.to_owned(), needed: size, available: most });
+            let contents = Contents::of(name, resource, start);
+            let needed = contents.size();
+            if needed > most {
+                return Err(GpuError::BufferTooLarge { name: name.to_owned(), needed, available: most });
             }
-            by_name.insert(name.to_owned(), create(device, name, resource, contents));
+            by_name.insert(name, contents.make(device, name, resource));
         }
         Ok(Self { by_name })
     }
@@ -53,222 +67,176 @@ impl Buffers {
 
     /// The buffer of a name, if a kernel of the plan names it.
     pub(crate) fn find(&self, name: &str) -> Option<&wgpu::Buffer> {
-        self.by_name.get(name)
+        self.by_name.get(name).map(|made| &made.buffer)
+    }
+
+    /// What a kernel binds of the buffer of a name: all of it, or one entry.
+    pub(crate) fn binding(&self, name: &str) -> wgpu::BindingResource<'_> {
+        let made = self.by_name.get(name).unwrap_or_else(|| panic!("no kernel of this plan has a buffer named {name}"));
+        // Not "the rest of the buffer": wgpu makes vertex buffers a word longer than asked for, and arrayLength
+        // would count that word, which nobody cleared.
+        let size = wgpu::BufferSize::new(made.seen);
+        wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer: &made.buffer, offset: 0, size })
+    }
+
+    /// Bytes from one entry to the next of the buffer with this role; 0 where there is none.
+    pub(crate) fn stride(&self, role: Role) -> u32 {
+        self.of_role(role).next().map_or(0, |(_, made)| made.stride as u32)
+    }
+
+    /// Whether the buffer with this role has a single entry, the same for all.
+    pub(crate) fn has_one_entry(&self, role: Role) -> bool {
+        self.of_role(role).all(|(_, made)| made.buffer.size() == made.stride)
+    }
+
+    /// The buffers of a role, in the order of their names.
+    pub(crate) fn of(&self, role: Role) -> impl Iterator<Item = (&'static str, &wgpu::Buffer)> {
+        self.of_role(role).map(|(name, made)| (name, &made.buffer))
+    }
+
+    fn of_role(&self, role: Role) -> impl Iterator<Item = (&'static str, &Made)> {
+        self.by_name.iter().filter(move |(_, made)| made.role == role).map(|(name, made)| (*name, made))
     }
 
     /// Bytes of all buffers.
     pub(crate) fn bytes(&self) -> u64 {
-        self.by_name.values().map(wgpu::Buffer::size).sum()
+        self.by_name.values().map(|made| made.buffer.size()).sum()
     }
 
     /// Name and bytes of each buffer.
     pub(crate) fn sizes(&self) -> impl Iterator<Item = (&str, u64)> {
-        self.by_name.iter().map(|(name, buffer)| (name.as_str(), buffer.size()))
+        self.by_name.iter().map(|(name, made)| (*name, made.buffer.size()))
     }
 }
 
 impl Plan {
-    /// Name and bytes of each buffer that a solver of this plan creates, by name. It needs no device.
-    pub fn buffer_sizes(&self, model: &Model, settings: &StepSettings) -> BTreeMap<String, u64> {
+    /// Name and bytes of each buffer that a solver of this plan creates among these shapes, by name. It needs no device.
+    pub fn buffer_sizes(&self, model: &Model, settings: &StepSettings, shapes: &[Shape]) -> BTreeMap<String, u64> {
         let bindings: Vec<Binding> =
             self.kernels().into_iter().flat_map(|kernel| Interface::of(kernel).bindings).collect();
-        let size = |name: &str| contents(name, model, settings, self).size();
-        named(bindings.iter()).into_keys().map(|name| (name.to_owned(), size(name))).collect()
+        let start = Start { model, settings, plan: self, shapes, after_maps: false };
+        let size = |(name, resource): (&'static str, _)| (name.to_owned(), Contents::of(name, resource, start).size());
+        named(bindings.iter()).into_iter().map(size).collect()
     }
 }
 
-/// The buffers among bindings. The frame of the maps lives with the maps.
-fn named<'a>(bindings: impl Iterator<Item = &'a Binding>) -> BTreeMap<&'a str, Resource> {
-    bindings
-        .filter(|binding| matches!(binding.resource, Resource::Uniform { .. } | Resource::Storage { .. }))
-        .filter(|binding| binding.name != "map_frame")
-        .map(|binding| (binding.name.as_str(), binding.resource))
-        .collect()
+/// The shapes of a step, as an entry of their buffer.
+pub(crate) fn shape_entry(shapes: &[Shape], step: u64, settings: &StepSettings) -> Vec<u8> {
+    encoded(&shapes.iter().map(|shape| ShapeStep::of(shape, step, settings)).collect::<Vec<_>>())
 }
 
-/// What a buffer holds at the start.
-enum Contents {
-    Bytes(Vec<u8>),
-    Zeros(u64),
-}
-
-impl Contents {
-    /// Bytes of the buffer. Not less than a vec4: a binding cannot be empty.
-    fn size(&self) -> u64 {
-        let size = match self {
-            Contents::Bytes(bytes) => bytes.len() as u64,
-            Contents::Zeros(size) => *size,
-        };
-        size.max(16)
-    }
-}
-
-fn create(device: &wgpu::Device, name: &str, resource: Resource, contents: Contents) -> wgpu::Buffer {
-    let usage = match resource {
-        _ if name == "sweep_dispatches" => wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDIRECT,
-        Resource::Uniform { .. } => wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-        // Positions and normals are drawn by the host and by the maps of a later garment.
-        _ => {
-            wgpu::BufferUsages::STORAGE
-                | wgpu::BufferUsages::VERTEX
-                | wgpu::BufferUsages::COPY_SRC
-                | wgpu::BufferUsages::COPY_DST
-        }
-    };
-    let size = contents.size();
-    match contents {
-        Contents::Bytes(mut bytes) => {
-            bytes.resize(size as usize, 0);
-            device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(name), contents: &bytes, usage })
-        }
-        Contents::Zeros(_) => {
-            device.create_buffer(&wgpu::BufferDescriptor { label: Some(name), size, usage, mapped_at_creation: false })
-        }
-    }
-}
-
-/// What the buffer of a name holds at the start.
-fn contents(name: &str, model: &Model, settings: &StepSettings, plan: &Plan) -> Contents {
-    let particles = u64::from(model.particle_count());
-    let quads = u64::from(model.quad_count());
-    match name {
-        "step" => uniform(&structs::StepParams {
-            particle_count: model.particle_count(),
-            quad_count: model.quad_count(),
-            limit_count: model.limits.len() as u32,
-            ..step_params(settings)
-        }),
-        "span" => Contents::Bytes(spans(plan)),
-        "lag" => Contents::Bytes(lags(settings)),
-        "ball" => Contents::Zeros(u64::from(settings.steps_per_frame) * MOVING_UNIFORM_STRIDE),
-        "positions" => {
-            Contents::Bytes(vec4s(model.positions.iter().zip(&model.inverse_masses).map(|(p, w)| p.extend(*w))))
-        }
-        "velocities" => Contents::Bytes(vec4s(model.masses.iter().map(|m| Vec3::ZERO.extend(*m)))),
-        "forces" | "normals" | "position_copies" | "velocity_copies" => Contents::Zeros(16 * particles),
-        "link_offsets" => words(&model.links.offsets),
-        "link_others" => words(&model.links.values.iter().map(|l| l.other).collect::<Vec<_>>()),
-        "link_springs" => {
-            let spring =
-                |l: &toile_model::Link| structs::LinkSpring { rest_length: l.rest_length, stiffness: l.stiffness };
-            array(model.links.values.iter().map(spring).collect())
-        }
-        "limits" => {
-            let limit = |l: &toile_model::Limit| structs::Limit {
-                first: l.ends[0],
-                second: l.ends[1],
-                rest_length: l.rest_length,
-                max_length: l.max_length,
-            };
-            array(model.limits.iter().map(limit).collect())
-        }
-        // Whole vec4, as contacts are: what a simulation goes on from is read and written by these.
-        "limit_impulses" => Contents::Zeros(4 * (model.limits.len() as u64).next_multiple_of(4)),
-        "strands" => {
-            let strand = |s: &toile_model::Strand| structs::Strand {
-                first: s.particles.start,
-                count: s.particles.end - s.particles.start,
-                lengths: s.lengths,
-                level_count: s.level_count,
-            };
-            array(model.strands.iter().map(strand).collect())
-        }
-        "strand_particles" => words(&model.strand_particles),
-        "strand_lengths" => Contents::Bytes(bytemuck::cast_slice(&model.strand_lengths).to_vec()),
-        "attachment_offsets" => words(&model.attachments.offsets),
-        "attachments" => {
-            let attachment = |a: &toile_model::Attachment| structs::Attachment { pin: a.pin, max_length: a.max_length };
-            array(model.attachments.values.iter().map(attachment).collect())
-        }
-        "seam_pairs" => {
-            let pair = |s: &toile_model::SeamPair| structs::SeamPair {
-                first: s.ends[0],
-                second: s.ends[1],
-                closing_speed: s.closing_speed,
-            };
-            array(model.seam_pairs.iter().map(pair).collect())
-        }
-        "holds" => {
-            let hold = |h: &toile_model::Hold| structs::Hold {
-                first: h.particles.start,
-                count: h.particles.end - h.particles.start,
-                height: h.height,
-            };
-            array(model.holds.iter().map(hold).collect())
-        }
-        "held_particles" => words(&model.held_particles),
-        "quads" => Contents::Bytes(bytemuck::cast_slice(&model.quads).to_vec()),
-        "particle_quad_offsets" => words(&model.particle_quads.offsets),
-        "particle_quads" => words(&model.particle_quads.values),
-        "quad_winds" => Contents::Zeros(16 * quads),
-        "midpoints" => zeroed::<structs::Midpoint>(quads),
-        "probes" => zeroed::<structs::Probe>(particles + quads),
-        "contacts" => zeroed::<structs::Contact>(particles),
-        "polish" => {
-            let Polish { target, sweeps } = settings.polish.expect("its kernels are planned for a polish");
-            uniform(&structs::Polish { target_elongation: target as f32, sweeps })
-        }
-        "polish_state" => zeroed::<structs::PolishState>(1),
-        "sweep_workgroups" => {
-            let granted = plan.granted().map(|pass| pass.workgroups());
-            words(&granted.flat_map(|[x, y]| [x, y, 1, 0]).collect::<Vec<_>>())
-        }
-        "sweep_dispatches" => Contents::Zeros(DISPATCH_STRIDE * plan.granted().count() as u64),
-        "status" => zeroed::<structs::Status>(1),
-        "energy_partials" => Contents::Zeros(4 * particles.div_ceil(u64::from(WORKGROUP_SIZE))),
-        other => panic!("the kernels name a buffer {other} that has no contents here"),
-    }
-}
-
-fn spans(plan: &Plan) -> Vec<u8> {
-    moving_entries(plan.spans.iter().map(uniform_bytes))
-}
-
-/// How long before the time of the maps a step begins and ends, for the last step of an interval, the one before it, and so on.
-fn lags(settings: &StepSettings) -> Vec<u8> {
-    let after = |steps: u32| steps as f32 * settings.dt;
-    let lag = |left: u32| structs::Lag { start: after(left + 1), end: after(left) };
-    moving_entries((0..settings.steps_per_frame).map(|left| uniform_bytes(&lag(left))))
-}
-
-/// The entries of a moving uniform, each at its stride.
-pub(crate) fn moving_entries(entries: impl Iterator<Item = Vec<u8>>) -> Vec<u8> {
+/// Entries one after the other, each at its alignment.
+pub(crate) fn aligned(entries: impl IntoIterator<Item = Vec<u8>>) -> Vec<u8> {
     let mut bytes = Vec::new();
     for entry in entries {
         bytes.extend(entry);
-        bytes.resize(bytes.len().next_multiple_of(MOVING_UNIFORM_STRIDE as usize), 0);
+        bytes.resize(bytes.len().next_multiple_of(ENTRY_ALIGNMENT as usize), 0);
     }
     bytes
 }
 
-fn vec4s(values: impl Iterator<Item = Vec4>) -> Vec<u8> {
-    bytemuck::cast_slice(&values.collect::<Vec<_>>()).to_vec()
+/// The buffers among bindings, but those that others bring.
+fn named<'a>(bindings: impl Iterator<Item = &'a Binding>) -> BTreeMap<&'static str, Resource> {
+    bindings
+        .filter(|binding| matches!(binding.resource, Resource::Uniform { .. } | Resource::Storage { .. }))
+        .map(|binding| (buffer_row(&binding.name), binding.resource))
+        .filter(|(row, _)| row.role != Role::Brought)
+        .map(|(row, resource)| (row.name, resource))
+        .collect()
 }
 
-fn words(values: &[u32]) -> Contents {
-    Contents::Bytes(bytemuck::cast_slice(values).to_vec())
+/// What a buffer holds at the start.
+struct Contents {
+    role: Role,
+    /// `None` is zeros.
+    bytes: Option<Vec<u8>>,
+    /// Bytes that a dispatch sees.
+    seen: u64,
+    /// Bytes of all entries.
+    all: u64,
 }
 
-fn uniform<T: ShaderType + WriteInto>(value: &T) -> Contents {
-    Contents::Bytes(uniform_bytes(value))
-}
+impl Contents {
+    fn of(name: &'static str, resource: Resource, start: Start<'_>) -> Self {
+        let row = buffer_row(name);
+        let Start { model, settings, plan, shapes, after_maps } = start;
+        let stride = u64::from(resource.stride());
+        let entries = |seen: u64, entries: Vec<Vec<u8>>| {
+            let bytes = aligned(entries);
+            Self { role: row.role, seen, all: bytes.len() as u64, bytes: Some(bytes) }
+        };
+        match row.role {
+            Role::PerSpan => return entries(stride, plan.spans.iter().map(uniform).collect()),
+            Role::PerStepLeft => {
+                return entries(stride, (0..settings.steps_per_frame).map(|left| lag(left, settings)).collect());
+            }
+            Role::PerStep => {
+                // What stands still has the same entry in every step.
+                let count = if shapes.iter().all(Shape::is_still) { 1 } else { settings.steps_per_frame };
+                let entry = shape_entry(shapes, 0, settings);
+                return entries(stride * shapes.len() as u64, vec![entry; count as usize]);
+            }
+            _ => {}
+        }
+        let particles = u64::from(model.particle_count());
+        let count = match row.per {
+            Per::Cloth => 1,
+            Per::Particle => particles,
+            Per::Quad => u64::from(model.quad_count()),
+            Per::Point => particles + u64::from(model.quad_count()),
+            Per::Limit => model.limits.len() as u64,
+            Per::Workgroup => particles.div_ceil(u64::from(WORKGROUP_SIZE)),
+            Per::GrantedPass => plan.granted().count() as u64,
+            Per::Listed => 0,
+        };
+        let bytes = if name == "sweep_workgroups" {
+            let granted = plan.granted().map(|pass| pass.workgroups());
+            Some(words(&granted.flat_map(|[x, y]| [x, y, 1, 0]).collect::<Vec<_>>()))
+        } else {
+            constant(name, model, settings, after_maps)
+        };
+        let size = match &bytes {
+            Some(bytes) => bytes.len() as u64,
+            None => {
+                assert!(!matches!(row.role, Role::Constant), "the constant buffer {name} has contents");
+                // The state is read and written in whole vec4.
+                (stride * count).next_multiple_of(if row.role == Role::State { 16 } else { 4 })
+            }
+        };
+        // Not less than a vec4: a binding cannot be empty.
+        let size = size.max(16);
+        Self { role: row.role, bytes, seen: size, all: size }
+    }
 
-/// The bytes of a struct as a uniform buffer holds them.
-pub(crate) fn uniform_bytes<T: ShaderType + WriteInto>(value: &T) -> Vec<u8> {
-    let mut buffer = UniformBuffer::new(Vec::new());
-    buffer.write(value).expect("a vector grows to what is written");
-    buffer.into_inner()
-}
+    fn size(&self) -> u64 {
+        self.all.max(16)
+    }
 
-fn array<T>(values: Vec<T>) -> Contents
-where
-    Vec<T>: ShaderType + WriteInto,
-{
-    let mut buffer = StorageBuffer::new(Vec::new());
-    buffer.write(&values).expect("a vector grows to what is written");
-    Contents::Bytes(buffer.into_inner())
-}
-
-fn zeroed<T: ShaderType>(count: u64) -> Contents {
-    Contents::Zeros(T::min_size().get() * count)
+    fn make(self, device: &wgpu::Device, name: &'static str, resource: Resource) -> Made {
+        use wgpu::BufferUsages as Usage;
+        let kind = match resource {
+            Resource::Uniform { .. } => Usage::UNIFORM,
+            _ => Usage::STORAGE,
+        };
+        let usage = match self.role {
+            Role::Dispatches => Usage::INDIRECT,
+            Role::Constant | Role::PerSpan | Role::PerStepLeft => Usage::empty(),
+            Role::PerStep => Usage::COPY_DST,
+            // Positions and normals are drawn by the host and by the maps of a later garment.
+            Role::State | Role::Output | Role::Scratch | Role::Brought => {
+                Usage::VERTEX | Usage::COPY_SRC | Usage::COPY_DST
+            }
+        } | kind;
+        let (size, role, seen) = (self.size(), self.role, self.seen);
+        let stride = seen.next_multiple_of(ENTRY_ALIGNMENT);
+        let label = Some(name);
+        let buffer = match self.bytes {
+            Some(mut bytes) => {
+                bytes.resize(size as usize, 0);
+                device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label, contents: &bytes, usage })
+            }
+            None => device.create_buffer(&wgpu::BufferDescriptor { label, size, usage, mapped_at_creation: false }),
+        };
+        Made { buffer, role, seen, stride }
+    }
 }

@@ -4,6 +4,7 @@
 //! tests, benches and programs that write files.
 
 mod buffers;
+pub mod contents;
 mod error;
 mod limits;
 mod maps;

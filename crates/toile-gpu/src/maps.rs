@@ -1,7 +1,7 @@
 //! The depth, normal and velocity maps of the bodies: rendered on the GPU, never leaving it in a run. W §4.
 
 use crate::GpuError;
-use crate::buffers::uniform_bytes;
+use crate::contents::{Encode, uniform};
 use crate::limits::check_limits;
 use toile_kernels::{render_maps_source, structs};
 use toile_model::MapFrame;
@@ -144,7 +144,7 @@ impl BodyMaps {
             depth: Map::new(device, "depth map", DEPTH_FORMAT, size),
             normals: Map::new(device, "normal map", COLOUR_FORMAT, size),
             velocities: moving.then(|| Map::new(device, "velocity map", COLOUR_FORMAT, size)),
-            frame_uniform: create(device, "map_frame", &frame_bytes(&frame), usage),
+            frame_uniform: create(device, "map_frame", &uniform(&frame.encode()), usage),
             pipeline,
             layout,
         })
@@ -216,7 +216,7 @@ impl BodyMaps {
         let size = [self.size.width, self.size.height];
         assert_eq!([frame.columns, frame.rows], size, "the frame has the size of the maps");
         // A buffer of its own, not a queue write: the caller may record several frames before submitting any.
-        let upload = create(device, "map_frame upload", &frame_bytes(&frame), wgpu::BufferUsages::COPY_SRC);
+        let upload = create(device, "map_frame upload", &uniform(&frame.encode()), wgpu::BufferUsages::COPY_SRC);
         encoder.copy_buffer_to_buffer(&upload, 0, &self.frame_uniform, 0, upload.size());
     }
 
@@ -302,7 +302,7 @@ impl BodyMaps {
     }
 
     fn camera(&self, device: &wgpu::Device, side: u32, thickness: f32) -> wgpu::BindGroup {
-        let camera = uniform_bytes(&structs::Side { side, thickness });
+        let camera = uniform(&structs::Side { side, thickness });
         let camera = create(device, "camera", &camera, wgpu::BufferUsages::UNIFORM);
         device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("render_maps"),
@@ -319,18 +319,6 @@ fn bytes_of(columns: u32, rows: u32, moving: bool) -> u64 {
     let texels = 2 * u64::from(columns) * u64::from(rows);
     let colours = if moving { 2 } else { 1 };
     texels * (4 + 16 * colours) + <structs::MapFrame as encase::ShaderType>::min_size().get()
-}
-
-fn frame_bytes(frame: &MapFrame) -> Vec<u8> {
-    uniform_bytes(&structs::MapFrame {
-        origin_x: frame.origin_x,
-        origin_y: frame.origin_y,
-        texel: frame.texel,
-        z_front: frame.z_front,
-        z_back: frame.z_back,
-        columns: frame.columns,
-        rows: frame.rows,
-    })
 }
 
 fn create_pipeline(device: &wgpu::Device, moving: bool) -> (wgpu::BindGroupLayout, wgpu::RenderPipeline) {

@@ -1,12 +1,12 @@
 //! A body that moves, on the device: posed whenever the maps are drawn anew.
 
+use crate::contents::encoded;
 use crate::limits::check_limits;
 use crate::maps::padded;
 use crate::trail::{dispatch, sized, vertices_uniform};
 use crate::{GpuError, Program, Surface, Trail};
-use encase::StorageBuffer;
 use glam::Vec3;
-use toile_kernels::{Kernel, structs};
+use toile_kernels::Kernel;
 use toile_scene::{MeshSequence, Motion, MovingMesh, Pose, Rig, Skin};
 use wgpu::util::DeviceExt;
 
@@ -138,9 +138,7 @@ impl Joints {
         let bind_positions = upload("bind_positions", bytemuck::cast_slice(&padded(&skin.positions)))?;
         let bind_normals = upload("bind_normals", bytemuck::cast_slice(&padded(&skin.normals)))?;
         let influence_offsets = upload("influence_offsets", bytemuck::cast_slice(&skin.influence_offsets))?;
-        let influences: Vec<_> =
-            skin.influences.iter().map(|i| structs::Influence { joint: i.joint, weight: i.weight }).collect();
-        let influences = upload("influences", &array(&influences))?;
+        let influences = upload("influences", &encoded(&skin.influences))?;
         let pose = rig.pose(0.0);
         let joints = upload("joints", bytemuck::cast_slice(&pose.joints))?;
         let mut morphed = [bind_positions.clone(), bind_normals.clone()];
@@ -148,12 +146,7 @@ impl Joints {
             None => None,
             Some(morphs) => {
                 let offsets = upload("morph_offsets", bytemuck::cast_slice(&morphs.offsets))?;
-                let displacements: Vec<_> = morphs
-                    .displacements
-                    .iter()
-                    .map(|d| structs::Displacement { position: d.position, morph: d.target, normal: d.normal })
-                    .collect();
-                let displacements = upload("displacements", &array(&displacements))?;
+                let displacements = upload("displacements", &encoded(&morphs.displacements))?;
                 let weights = upload("morph_weights", bytemuck::cast_slice(&pose.morph_weights))?;
                 let zeros = vec![0; size as usize];
                 morphed = [upload("morphed_positions", &zeros)?, upload("morphed_normals", &zeros)?];
@@ -213,13 +206,4 @@ fn create(device: &wgpu::Device, label: &str, contents: &[u8], usage: wgpu::Buff
 
 fn upload_vec3s(device: &wgpu::Device, label: &str, values: &[Vec3], usage: wgpu::BufferUsages) -> wgpu::Buffer {
     create(device, label, bytemuck::cast_slice(&padded(values)), usage)
-}
-
-fn array<T>(values: &Vec<T>) -> Vec<u8>
-where
-    Vec<T>: encase::ShaderType + encase::internal::WriteInto,
-{
-    let mut buffer = StorageBuffer::new(Vec::new());
-    buffer.write(values).expect("a vector grows to what is written");
-    buffer.into_inner()
 }

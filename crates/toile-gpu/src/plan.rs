@@ -156,7 +156,7 @@ fn holds(need: Need, needs: &Needs) -> bool {
         Need::MovingMaps => needs.maps == Maps::Moving,
         // What a body has is no need of a cloth.
         Need::Joints | Need::Morphs => false,
-        Need::Sphere => needs.sphere,
+        Need::Shapes => needs.shapes,
         Need::Holds => needs.holds,
         Need::Seams => needs.seams,
         Need::Limits => needs.limits,
@@ -177,17 +177,18 @@ fn passes(row: &Row, model: &Model, settings: &StepSettings, spans: &mut Vec<Spa
     let workgroup_per_item = matches!(row.domain, Domain::Hold | Domain::StrandColour);
     let pass = |items, span| Pass { kernel: row.kernel, items, span, workgroup_per_item, grant: None };
     let all = |count: u32| vec![pass(0..count, None)];
-    let mut coloured = |colours: &[Range<u32>], times: u32| -> Vec<Pass> {
+    let mut coloured = |colours: &[Range<u32>], times: u32, share_of: &dyn Fn(u32, u32) -> f32| -> Vec<Pass> {
         let mut passes = Vec::new();
         for time in 0..times {
             for (items, colour) in colours.iter().zip(0..) {
-                let share = if row.kernel == Kernel::LimitGuard { settings.guard_share(time, colour) } else { 1.0 };
+                let share = share_of(time, colour);
                 let span = Span { first: items.start, count: items.end - items.start, share };
                 passes.push(pass(items.clone(), Some(place(spans, span))));
             }
         }
         passes
     };
+    let whole = |_, _| 1.0;
     match row.domain {
         Domain::Particle => all(model.particle_count()),
         Domain::Quad => all(model.quad_count()),
@@ -195,16 +196,15 @@ fn passes(row: &Row, model: &Model, settings: &StepSettings, spans: &mut Vec<Spa
         Domain::Hold => all(model.holds.len() as u32),
         Domain::Limit => all(model.limits.len() as u32),
         Domain::LimitColour => {
-            let times = match row.stage {
-                Stage::Sweep => settings.limit_passes(),
-                Stage::AfterSweeps => settings.guard_passes,
-                _ => 1,
-            };
-            coloured(&model.limit_colours, times)
+            let times = if row.stage == Stage::Sweep { settings.limit_passes() } else { 1 };
+            coloured(&model.limit_colours, times, &whole)
         }
-        Domain::StrandColour => coloured(&model.strand_colours, 1),
+        Domain::LimitColourShare => {
+            coloured(&model.limit_colours, settings.guard_passes, &|pass, colour| settings.guard_share(pass, colour))
+        }
+        Domain::StrandColour => coloured(&model.strand_colours, 1, &whole),
         Domain::SeamPair => all(model.seam_pair_count()),
-        Domain::SeamColour => coloured(&model.seam_colours, 1),
+        Domain::SeamColour => coloured(&model.seam_colours, 1, &whole),
         Domain::Workgroup => all(WORKGROUP_SIZE),
         Domain::Vertex => Vec::new(),
     }

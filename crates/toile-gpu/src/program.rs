@@ -1,6 +1,6 @@
 //! A kernel on a device: its pipeline, and resources bound to it by name.
 
-use toile_kernels::{Binding, Interface, Kernel, Resource};
+use toile_kernels::{Binding, Interface, Kernel, Resource, Role, buffer_row};
 
 /// A kernel on a device. Everything it binds comes from the WGSL, by global name.
 #[derive(Clone, Debug)]
@@ -8,11 +8,7 @@ pub struct Program {
     interface: Interface,
     layout: wgpu::BindGroupLayout,
     pipeline: wgpu::ComputePipeline,
-    has_moving_uniform: bool,
 }
-
-/// Uniforms whose place in their buffer changes from dispatch to dispatch.
-const MOVING_UNIFORMS: [&str; 3] = ["span", "ball", "lag"];
 
 impl Program {
     /// Compiles a kernel.
@@ -49,8 +45,7 @@ impl Program {
             },
             cache: None,
         });
-        let has_moving_uniform = interface.bindings.iter().any(is_moving_uniform);
-        Self { interface, layout, pipeline, has_moving_uniform }
+        Self { interface, layout, pipeline }
     }
 
     /// What the kernel binds.
@@ -63,9 +58,10 @@ impl Program {
         &self.pipeline
     }
 
-    /// Whether the kernel takes a dynamic offset: it has a uniform that changes from dispatch to dispatch.
-    pub fn has_moving_uniform(&self) -> bool {
-        self.has_moving_uniform
+    /// What decides the dynamic offset of a dispatch; `None` for kernels that take none.
+    pub fn offset_role(&self) -> Option<Role> {
+        let entries = self.interface.bindings.iter().find(|binding| binding.has_entries());
+        entries.map(|binding| buffer_row(&binding.name).role)
     }
 
     /// Binds resources by name.
@@ -88,22 +84,15 @@ impl Program {
     }
 }
 
-fn is_moving_uniform(binding: &Binding) -> bool {
-    MOVING_UNIFORMS.contains(&binding.name.as_str())
-}
-
 /// What a kernel has otherwise than its WGSL says on a kind of device.
 fn constants(kernel: Kernel, device_type: wgpu::DeviceType) -> &'static [(&'static str, f64)] {
-    match (kernel, device_type) {
-        // A driver on the CPU runs the lanes of a workgroup one vector after the other, and changes between them at each barrier.
-        (Kernel::LimitStrands, wgpu::DeviceType::Cpu) => &[("LANES", 8.0)],
-        _ => &[],
-    }
+    // A driver on the CPU runs the lanes of a workgroup one vector after the other, and changes between them at each barrier.
+    if device_type == wgpu::DeviceType::Cpu { kernel.row().cpu_constants } else { &[] }
 }
 
 fn layout_entry(binding: &Binding) -> wgpu::BindGroupLayoutEntry {
     let buffer =
-        |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: is_moving_uniform(binding), min_binding_size: None };
+        |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: binding.has_entries(), min_binding_size: None };
     let texture = |sample_type| wgpu::BindingType::Texture {
         sample_type,
         view_dimension: wgpu::TextureViewDimension::D2Array,

@@ -1,24 +1,27 @@
 //! The solver: records the passes of a plan.
 
-use crate::buffers::{Buffers, DISPATCH_STRIDE, MOVING_UNIFORM_STRIDE, moving_entries, uniform_bytes};
+use crate::buffers::{Buffers, Start, aligned, shape_entry};
 use crate::limits::check_limits;
 use crate::status::StatusReader;
 use crate::timing::{PassTime, Timer};
 use crate::{BodyMaps, GpuError, Pass, Plan, Program};
 use std::collections::BTreeMap;
 use std::ops::Range;
-use toile_kernels::{Kernel, structs};
+use toile_kernels::{Kernel, Role};
 use toile_model::{Maps, Merge, Model, Needs, Status, StepSettings};
-use toile_scene::Sphere;
+use toile_scene::Shape;
 use wgpu::util::DeviceExt;
+
+/// Bytes from one entry of the dispatches to the next: three words for the dispatch, and one that fills the vec4.
+const DISPATCH_STRIDE: u64 = 16;
 
 /// What a cloth collides with.
 #[derive(Clone, Debug, Default)]
 pub struct Colliders<'a> {
     /// Mesh bodies and inner garments, as maps.
     pub maps: Option<&'a BodyMaps>,
-    /// An analytic sphere.
-    pub sphere: Option<Sphere>,
+    /// Analytic shapes; their order does not matter.
+    pub shapes: Vec<Shape>,
 }
 
 /// One cloth on a device.
@@ -27,9 +30,11 @@ pub struct Solver {
     settings: StepSettings,
     plan: Plan,
     buffers: Buffers,
-    programs: BTreeMap<Kernel, BoundProgram>,
-    sphere: Option<Sphere>,
-    sphere_after_maps: bool,
+    bound: Vec<BoundProgram>,
+    step_dispatches: Vec<Dispatch>,
+    frame_dispatches: Vec<Dispatch>,
+    /// Those that move; what stands still is on the device once and for all.
+    moving_shapes: Vec<Shape>,
     particle_count: u32,
     status: StatusReader,
     step: u64,
@@ -44,13 +49,40 @@ struct Place {
     left: u32,
 }
 
-/// Names of the buffers whose contents carry over from step to step.
-const STATE: [&str; 5] = ["positions", "velocities", "contacts", "limit_impulses", "polish_state"];
-
+/// A pipeline and what is bound to it.
 #[derive(Debug)]
 struct BoundProgram {
+    kernel: Kernel,
     program: Program,
     group: wgpu::BindGroup,
+}
+
+/// A pass of the plan as it is recorded: everything about it is resolved.
+#[derive(Clone, Copy, Debug)]
+struct Dispatch {
+    /// Its place among the bound programs.
+    bound: usize,
+    offset: Offset,
+    work: Work,
+}
+
+/// The dynamic offset of a dispatch.
+#[derive(Clone, Copy, Debug)]
+enum Offset {
+    None,
+    Fixed(u32),
+    /// So many bytes for each of the steps that are left in the interval of the maps.
+    PerStepLeft(u32),
+    /// So many bytes for each step that was recorded before it with the same shapes.
+    PerStep(u32),
+}
+
+/// How many workgroups a dispatch has.
+#[derive(Clone, Copy, Debug)]
+enum Work {
+    Direct([u32; 2]),
+    /// What a kernel wrote at so many bytes of its dispatches.
+    Indirect(u64),
 }
 
 impl Solver {
@@ -81,9 +113,11 @@ impl Solver {
         settings: &StepSettings,
         colliders: Colliders<'_>,
     ) -> Result<Self, GpuError> {
-        Self::with_programs(device, model, settings, colliders, |kernel| match self.programs.get(&kernel) {
-            Some(known) => known.program.clone(),
-            None => Program::new(device, kernel),
+        Self::with_programs(device, model, settings, colliders, |kernel| {
+            match self.bound.iter().find(|known| known.kernel == kernel) {
+                Some(known) => known.program.clone(),
+                None => Program::new(device, kernel),
+            }
         })
     }
 
@@ -100,36 +134,30 @@ impl Solver {
             Some(maps) if maps.is_moving() => Maps::Moving,
             Some(_) => Maps::Still,
         };
-        let needs = Needs::new(model, settings, maps, colliders.sphere.is_some());
+        let needs = Needs::new(model, settings, maps, !colliders.shapes.is_empty());
         let plan = Plan::new(model, &needs, settings);
         let programs: Vec<_> = plan.kernels().into_iter().map(|kernel| (kernel, program(kernel))).collect();
         let bindings = programs.iter().flat_map(|(_, program)| &program.interface().bindings);
-        let buffers = Buffers::new(device, model, settings, &plan, bindings)?;
+        let start =
+            Start { model, settings, plan: &plan, shapes: &colliders.shapes, after_maps: colliders.maps.is_some() };
+        let buffers = Buffers::new(device, start, bindings)?;
         let bound = |(kernel, program): (Kernel, Program)| {
             let group = program.bind(device, |binding| {
-                if let Some(map) = colliders.maps.and_then(|maps| maps.resource(&binding.name)) {
-                    return map;
-                }
-                let buffer = buffers.get(&binding.name);
-                let size = match binding.name.as_str() {
-                    "span" => moving_size::<structs::Span>(),
-                    "ball" => moving_size::<structs::Ball>(),
-                    "lag" => moving_size::<structs::Lag>(),
-                    // Not "the rest of the buffer": wgpu makes vertex buffers a word longer than asked for, and arrayLength
-                    // would count that word, which nobody cleared.
-                    _ => wgpu::BufferSize::new(buffer.size()),
-                };
-                wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size })
+                let map = colliders.maps.and_then(|maps| maps.resource(&binding.name));
+                map.unwrap_or_else(|| buffers.binding(&binding.name))
             });
-            (kernel, BoundProgram { program, group })
+            BoundProgram { kernel, program, group }
         };
-        let programs = programs.into_iter().map(bound).collect();
+        let bound: Vec<_> = programs.into_iter().map(bound).collect();
+        let resolved = |passes: &[Pass]| passes.iter().map(|pass| Dispatch::of(pass, &bound, &buffers)).collect();
+        let still = colliders.shapes.iter().all(Shape::is_still);
         Ok(Self {
             settings: settings.clone(),
+            step_dispatches: resolved(&plan.step),
+            frame_dispatches: resolved(&plan.frame),
             plan,
-            programs,
-            sphere: colliders.sphere,
-            sphere_after_maps: colliders.maps.is_some(),
+            bound,
+            moving_shapes: if still { Vec::new() } else { colliders.shapes },
             particle_count: model.particle_count(),
             status: StatusReader::new(device),
             step: 0,
@@ -160,13 +188,13 @@ impl Solver {
         assert!(interval <= most, "an interval of {interval} steps is longer than a frame, which has {most}");
         assert!(steps.start <= steps.end && steps.end <= interval, "steps {steps:?} of an interval of {interval}");
         let count = steps.end - steps.start;
-        self.record_sphere(device, encoder, count);
-        let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-        let mut last = None;
+        self.record_shapes(device, encoder, count);
+        let mut compute = encoder.begin_compute_pass(&labelled("steps of a cloth"));
+        let mut last = usize::MAX;
         for index in 0..count {
             let place = Place { recorded: index, left: interval - steps.start - index - 1 };
-            for pass in &self.plan.step {
-                self.dispatch(&mut compute, pass, place, &mut last);
+            for dispatch in &self.step_dispatches {
+                self.dispatch(&mut compute, dispatch, place, &mut last);
             }
         }
         self.step += u64::from(count);
@@ -174,7 +202,7 @@ impl Solver {
 
     /// The buffers whose contents carry over from step to step, and their names: all that a saved simulation needs. Usage `COPY_SRC` and `COPY_DST`.
     pub fn state(&self) -> impl Iterator<Item = (&'static str, &wgpu::Buffer)> {
-        STATE.iter().filter_map(|name| Some((*name, self.buffers.find(name)?)))
+        self.buffers.of(Role::State)
     }
 
     /// Records normals and status of the present state.
@@ -192,10 +220,10 @@ impl Solver {
 
     /// Records passes of a frame.
     fn record_of_frame(&self, encoder: &mut wgpu::CommandEncoder, wanted: impl Fn(Kernel) -> bool) {
-        let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-        let mut last = None;
-        for pass in self.plan.frame.iter().filter(|pass| wanted(pass.kernel)) {
-            self.dispatch(&mut compute, pass, Place::default(), &mut last);
+        let mut compute = encoder.begin_compute_pass(&labelled("outputs of a cloth"));
+        let mut last = usize::MAX;
+        for dispatch in self.frame_dispatches.iter().filter(|dispatch| wanted(self.bound[dispatch.bound].kernel)) {
+            self.dispatch(&mut compute, dispatch, Place::default(), &mut last);
         }
     }
 
@@ -211,13 +239,14 @@ impl Solver {
         timer: &Timer,
     ) -> Result<BTreeMap<Kernel, PassTime>, GpuError> {
         let mut encoder = device.create_command_encoder(&Default::default());
-        self.record_sphere(device, &mut encoder, 1);
+        self.record_shapes(device, &mut encoder, 1);
         queue.submit([encoder.finish()]);
         let mut times: BTreeMap<Kernel, PassTime> = BTreeMap::new();
-        for pass in &self.plan.step {
-            let time = times.entry(pass.kernel).or_default();
-            time.milliseconds += timer
-                .milliseconds(device, queue, |compute| self.dispatch(compute, pass, Place::default(), &mut None))?;
+        for dispatch in &self.step_dispatches {
+            let time = times.entry(self.bound[dispatch.bound].kernel).or_default();
+            time.milliseconds += timer.milliseconds(device, queue, |compute| {
+                self.dispatch(compute, dispatch, Place::default(), &mut { usize::MAX });
+            })?;
             time.dispatches += 1;
         }
         let milliseconds = self.time_state_copy(device, queue, timer)?;
@@ -288,7 +317,7 @@ impl Solver {
         });
         let pass = Pass::over(Kernel::MergeParticles, self.particle_count);
         let [x, y] = pass.workgroups();
-        let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+        let mut compute = encoder.begin_compute_pass(&labelled("handover of a cloth"));
         compute.set_pipeline(program.pipeline());
         compute.set_bind_group(0, &group, &[]);
         compute.dispatch_workgroups(x, y, 1);
@@ -356,68 +385,68 @@ impl Solver {
         self.buffers.sizes()
     }
 
-    /// `last` is the kernel whose pipeline is set: most passes are further colours of the same one.
-    fn dispatch(&self, compute: &mut wgpu::ComputePass<'_>, pass: &Pass, place: Place, last: &mut Option<Kernel>) {
-        let bound = &self.programs[&pass.kernel];
-        if last.replace(pass.kernel) != Some(pass.kernel) {
+    /// `last` is the program whose pipeline is set: most passes are further colours of the same one.
+    fn dispatch(&self, compute: &mut wgpu::ComputePass<'_>, dispatch: &Dispatch, place: Place, last: &mut usize) {
+        let bound = &self.bound[dispatch.bound];
+        let same = std::mem::replace(last, dispatch.bound) == dispatch.bound;
+        if !same {
             compute.set_pipeline(bound.program.pipeline());
         }
-        let step = if bound.program.interface().binding("lag").is_some() { place.left } else { place.recorded };
-        let entry = pass.span.unwrap_or(step);
-        if bound.program.has_moving_uniform() {
-            compute.set_bind_group(0, &bound.group, &[entry * MOVING_UNIFORM_STRIDE as u32]);
-        } else {
-            compute.set_bind_group(0, &bound.group, &[]);
+        match dispatch.offset {
+            Offset::None if same => {}
+            Offset::None => compute.set_bind_group(0, &bound.group, &[]),
+            Offset::Fixed(offset) => compute.set_bind_group(0, &bound.group, &[offset]),
+            Offset::PerStepLeft(stride) => compute.set_bind_group(0, &bound.group, &[stride * place.left]),
+            Offset::PerStep(stride) => compute.set_bind_group(0, &bound.group, &[stride * place.recorded]),
         }
-        match pass.grant {
-            Some(place) => {
-                let dispatches = self.buffers.get("sweep_dispatches");
-                compute.dispatch_workgroups_indirect(dispatches, DISPATCH_STRIDE * u64::from(place));
-            }
-            None => {
-                let [x, y] = pass.workgroups();
-                compute.dispatch_workgroups(x, y, 1);
+        match dispatch.work {
+            Work::Direct([x, y]) => compute.dispatch_workgroups(x, y, 1),
+            Work::Indirect(offset) => {
+                let (_, dispatches) =
+                    self.buffers.of(Role::Dispatches).next().expect("a plan with grants has dispatches");
+                compute.dispatch_workgroups_indirect(dispatches, offset);
             }
         }
     }
 
-    /// Records where the sphere is in each of the coming steps.
-    fn record_sphere(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, count: u32) {
-        let Some(sphere) = &self.sphere else { return };
-        let dt = f64::from(self.settings.dt);
-        let balls = (0..u64::from(count)).map(|index| {
-            let [start, end] = [0, 1].map(|more| (self.step + index + more) as f64 * dt);
-            let [centre, next] = [start, end].map(|time| sphere.at(time).0);
-            uniform_bytes(&structs::Ball {
-                centre: centre.as_vec3(),
-                radius: sphere.radius as f32 + self.settings.thickness,
-                velocity: ((next - centre) / dt).as_vec3(),
-                after_maps: u32::from(self.sphere_after_maps),
-                spin: sphere.spin(start).as_vec3(),
-            })
-        });
-        self.record_moving_uniform(device, encoder, "ball", balls);
-    }
-
-    /// Records the entries of a uniform that moves from step to step.
-    fn record_moving_uniform(
-        &self,
-        device: &wgpu::Device,
-        encoder: &mut wgpu::CommandEncoder,
-        name: &str,
-        entries: impl Iterator<Item = Vec<u8>>,
-    ) {
-        let bytes = moving_entries(entries);
+    /// Records where moving shapes are in each of the coming steps.
+    fn record_shapes(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, count: u32) {
+        if self.moving_shapes.is_empty() || count == 0 {
+            return;
+        }
+        let steps = self.step..self.step + u64::from(count);
+        let bytes = aligned(steps.map(|step| shape_entry(&self.moving_shapes, step, &self.settings)));
+        let Some((name, shapes)) = self.buffers.of(Role::PerStep).next() else { return };
         // A buffer of its own, not a queue write: the caller may record several frames before submitting any.
         let upload = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some(name),
             contents: &bytes,
             usage: wgpu::BufferUsages::COPY_SRC,
         });
-        encoder.copy_buffer_to_buffer(&upload, 0, self.buffers.get(name), 0, bytes.len() as u64);
+        encoder.copy_buffer_to_buffer(&upload, 0, shapes, 0, bytes.len() as u64);
     }
 }
 
-fn moving_size<T: encase::ShaderType>() -> Option<std::num::NonZeroU64> {
-    Some(T::min_size())
+impl Dispatch {
+    fn of(pass: &Pass, bound: &[BoundProgram], buffers: &Buffers) -> Self {
+        let place = bound.iter().position(|bound| bound.kernel == pass.kernel).expect("a plan has its kernels");
+        let offset = match bound[place].program.offset_role() {
+            Some(role @ Role::PerSpan) => Offset::Fixed(buffers.stride(role) * pass.span.unwrap_or_default()),
+            Some(role @ Role::PerStepLeft) => Offset::PerStepLeft(buffers.stride(role)),
+            // What stands still has one entry for all steps.
+            Some(role @ Role::PerStep) if buffers.has_one_entry(role) => Offset::Fixed(0),
+            Some(role @ Role::PerStep) => Offset::PerStep(buffers.stride(role)),
+            _ => Offset::None,
+        };
+        let work = match pass.grant {
+            Some(place) => Work::Indirect(DISPATCH_STRIDE * u64::from(place)),
+            None => Work::Direct(pass.workgroups()),
+        };
+        Self { bound: place, offset, work }
+    }
+}
+
+/// A compute pass with a name that tools of a driver show.
+fn labelled(label: &str) -> wgpu::ComputePassDescriptor<'_> {
+    wgpu::ComputePassDescriptor { label: Some(label), timestamp_writes: None }
 }

@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 use toile_kernels::structs::StepParams;
-use toile_model::StepSettings;
+use toile_model::{Model, StepSettings};
 use toile_scene::{Friction, Wind};
 
-/// What the kernels read of the settings. The counts, which are those of a cloth, are 0.
-pub fn step_params(settings: &StepSettings) -> StepParams {
+/// What the kernels read of a model and the settings of its step; `after_maps` when shapes are sampled after maps.
+pub fn step_params(model: &Model, settings: &StepSettings, after_maps: bool) -> StepParams {
     let (friction_law, velocity_kept, force_removed) = match settings.law {
         Friction::Coulomb => (0, 0.0, 0.0),
         Friction::Papers { velocity_kept, force_removed } => (1, velocity_kept as f32, force_removed as f32),
@@ -27,8 +27,8 @@ pub fn step_params(settings: &StepSettings) -> StepParams {
         force_removed,
         hold_rate: settings.hold_rate,
         hold_speed: settings.hold_speed,
-        particle_count: 0,
-        quad_count: 0,
+        particle_count: model.particle_count(),
+        quad_count: model.quad_count(),
         swept: u32::from(settings.swept),
         wind: wind.velocity.as_vec3(),
         drag: wind.drag as f32,
@@ -36,6 +36,7 @@ pub fn step_params(settings: &StepSettings) -> StepParams {
         thickness: settings.thickness,
         guard_way: settings.guard_way(),
         aim: settings.aim(),
-        limit_count: 0,
+        limit_count: model.limits.len() as u32,
+        after_maps: u32::from(after_maps),
     }
 }

@@ -1,6 +1,6 @@
 //! How fast a surface on the device moves: from where its vertices were and where they are. W §4.3.
 
-use crate::buffers::uniform_bytes;
+use crate::contents::uniform;
 use crate::{Pass, Program};
 use toile_kernels::{Kernel, structs};
 use wgpu::util::DeviceExt;
@@ -52,7 +52,7 @@ impl Trail {
         let rate = if seconds > 0.0 { (1.0 / seconds) as f32 } else { 0.0 };
         let upload = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("vertices upload"),
-            contents: &uniform_bytes(&structs::Vertices { count: self.vertex_count, rate }),
+            contents: &uniform(&structs::Vertices { count: self.vertex_count, rate }),
             usage: wgpu::BufferUsages::COPY_SRC,
         });
         encoder.copy_buffer_to_buffer(&upload, 0, &self.vertices, 0, upload.size());
@@ -75,7 +75,7 @@ impl Trail {
 pub(crate) fn vertices_uniform(device: &wgpu::Device, count: u32) -> wgpu::Buffer {
     device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
         label: Some("vertices"),
-        contents: &uniform_bytes(&structs::Vertices { count, rate: 0.0 }),
+        contents: &uniform(&structs::Vertices { count, rate: 0.0 }),
         usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
     })
 }

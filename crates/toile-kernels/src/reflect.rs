@@ -1,6 +1,6 @@
 //! What a kernel's WGSL says of itself: bindings by global name, workgroup size, layouts of its structs.
 
-use crate::Kernel;
+use crate::{Kernel, buffer_row};
 use naga::{AddressSpace, Expression, ImageClass, Literal, StorageAccess, TypeInner};
 
 /// What a kernel's WGSL says of itself.
@@ -25,6 +25,25 @@ pub struct Binding {
     pub number: u32,
     /// What it is.
     pub resource: Resource,
+}
+
+impl Binding {
+    /// Whether it is a buffer with entries, of which a dispatch sees the one at its dynamic offset.
+    pub fn has_entries(&self) -> bool {
+        matches!(self.resource, Resource::Uniform { .. } | Resource::Storage { .. })
+            && buffer_row(&self.name).role.has_entries()
+    }
+}
+
+impl Resource {
+    /// Bytes of an item of a buffer, 0 of a texture.
+    pub fn stride(self) -> u32 {
+        match self {
+            Self::Uniform { size } => size,
+            Self::Storage { stride, .. } => stride,
+            Self::DepthTexture | Self::FloatTexture => 0,
+        }
+    }
 }
 
 /// What a binding is.

@@ -52,6 +52,8 @@ pub struct StepParams {
     pub aim: f32,
     /// Number of structural and shear springs, whose limits are the first.
     pub limit_count: u32,
+    /// 1: the probes already hold what the points see in the maps when the shapes are sampled.
+    pub after_maps: u32,
 }
 
 /// The part of an array that one dispatch works on. `wgsl/shared/span.wgsl`.
@@ -194,17 +196,17 @@ pub struct Side {
     pub thickness: f32,
 }
 
-/// The analytic sphere during one step. `wgsl/step/sample_sphere.wgsl`.
+/// An analytic shape during one step. `wgsl/step/sample_shapes.wgsl`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct Ball {
+pub struct Shape {
     /// Centre [m].
     pub centre: Vec3,
     /// Radius with the thickness of the cloth [m].
     pub radius: f32,
     /// Velocity [m/s].
     pub velocity: Vec3,
-    /// 1 when the probes already hold what the points see in the maps.
-    pub after_maps: u32,
+    /// 0 sphere.
+    pub kind: u32,
     /// Angular velocity [rad/s].
     pub spin: Vec3,
 }

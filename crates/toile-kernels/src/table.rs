@@ -40,6 +40,8 @@ pub enum Domain {
     Limit,
     /// A limit; one dispatch per colour.
     LimitColour,
+    /// A limit; one dispatch per colour and pass of the guard, each with its share of an excess.
+    LimitColourShare,
     /// A strand, one workgroup each; one dispatch per colour.
     StrandColour,
     /// A seam pair.
@@ -69,8 +71,8 @@ pub enum Need {
     Joints,
     /// A body with morph targets.
     Morphs,
-    /// An analytic sphere.
-    Sphere,
+    /// Analytic shapes.
+    Shapes,
     /// Held edges.
     Holds,
     /// Open seams.
@@ -110,10 +112,12 @@ pub struct Row {
     pub domain: Domain,
     /// What the scene must have.
     pub need: Need,
+    /// What its pipeline has otherwise than its WGSL says where a driver runs on the CPU.
+    pub cpu_constants: &'static [(&'static str, f64)],
 }
 
 macro_rules! kernels {
-    ($($(#[$doc:meta])* $kernel:ident $folder:literal $name:literal $stage:ident $domain:ident $need:ident;)*) => {
+    ($($(#[$doc:meta])* $kernel:ident $folder:literal $name:literal $stage:ident $domain:ident $need:ident $([$($constant:literal = $value:literal),*])?;)*) => {
         /// A WGSL entry point.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Kernel {
@@ -127,6 +131,7 @@ macro_rules! kernels {
                 stage: Stage::$stage,
                 domain: Domain::$domain,
                 need: Need::$need,
+                cpu_constants: &[$($(($constant, $value)),*)?],
             },)*
         ];
 
@@ -177,7 +182,7 @@ kernels! {
     /// From pins outward, before the limits between neighbours.
     LimitAttachments "step" "limit_attachments" Sweep Particle Attachments;
     /// The default rule, along lines of cloth.
-    LimitStrands "step" "limit_strands" Sweep StrandColour Strands;
+    LimitStrands "step" "limit_strands" Sweep StrandColour Strands ["LANES" = 8.0];
     /// The predictive rule on single springs; under the default rule after the strands.
     LimitPredictive "step" "limit_predictive" Sweep LimitColour RulePredictive;
     /// Points of the quads that are tested. D §6.
@@ -186,14 +191,14 @@ kernels! {
     SampleMaps "step" "sample_maps" Sweep Point StillMaps;
     /// What points see in the maps of moving bodies. W §4.3, §4.4.
     SampleMovingMaps "step" "sample_moving_maps" Sweep Point MovingMaps;
-    /// What points see of the sphere.
-    SampleSphere "step" "sample_sphere" Sweep Point Sphere;
+    /// What points see of the shapes.
+    SampleShapes "step" "sample_shapes" Sweep Point Shapes;
     /// Each particle answers its own contact and those of its quads. D §6, W eq. 15.
     Collide "step" "collide" Sweep Particle Body;
     /// Seams close at a set speed; last of all, so that a seam that a tight fit holds open closes all the same.
     CloseSeams "step" "close_seams" Sweep SeamColour Seams;
     /// No contact leaves a spring stretched far beyond its limit.
-    LimitGuard "step" "limit_guard" AfterSweeps LimitColour Guard;
+    LimitGuard "step" "limit_guard" AfterSweeps LimitColourShare Guard;
     /// Cloth gives way into its thickness for it, and no deeper.
     KeepOut "step" "keep_out" AfterSweeps Particle GuardOnBody;
     /// Whether the coming move would stretch a spring beyond the target of a polish.
@@ -223,6 +228,12 @@ kernels! {
 }
 
 impl Kernel {
+    /// Its row in the table.
+    pub fn row(self) -> &'static Row {
+        // The rows stand in the order of the kernels, which one macro writes.
+        &TABLE[self as usize]
+    }
+
     /// The whole WGSL of the kernel, imports resolved.
     pub fn source(self) -> String {
         resolve(self.text())

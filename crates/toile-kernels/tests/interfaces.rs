@@ -1,6 +1,7 @@
 //! Every kernel is valid WGSL under the limits of WebGPU, and says of itself what the table says.
 
-use toile_kernels::{Interface, Resource, TABLE, WORKGROUP_SIZE};
+use std::collections::BTreeSet;
+use toile_kernels::{BUFFERS, Interface, Resource, TABLE, WORKGROUP_SIZE};
 
 #[test]
 fn every_kernel_is_named_like_its_entry_point_and_fits_the_default_limits() {
@@ -25,5 +26,25 @@ fn a_name_is_the_same_resource_in_every_kernel() {
             let (first, by) = known.entry(binding.name.clone()).or_insert((resource, row.kernel.name()));
             assert_eq!(*first, resource, "{} in {} and in {by}", binding.name, row.kernel.name());
         }
+    }
+}
+
+#[test]
+fn the_buffer_table_has_each_buffer_of_the_kernels_once_and_no_other() {
+    let bindings = TABLE.iter().flat_map(|row| Interface::of(row.kernel).bindings);
+    let buffers = bindings.filter(|b| matches!(b.resource, Resource::Storage { .. } | Resource::Uniform { .. }));
+    let named: BTreeSet<String> = buffers.map(|binding| binding.name).collect();
+    let rows: BTreeSet<String> = BUFFERS.iter().map(|row| row.name.to_owned()).collect();
+    assert_eq!(rows, named);
+    assert_eq!(rows.len(), BUFFERS.len());
+}
+
+/// A dispatch gives one dynamic offset.
+#[test]
+fn a_kernel_has_at_most_one_buffer_with_entries() {
+    for row in TABLE {
+        let bindings = Interface::of(row.kernel).bindings;
+        let count = bindings.iter().filter(|binding| binding.has_entries()).count();
+        assert!(count <= 1, "{} has {count} buffers with entries", row.kernel.name());
     }
 }

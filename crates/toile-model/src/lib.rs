@@ -24,6 +24,7 @@ mod rectangle;
 mod rim;
 mod seams;
 mod sewn;
+mod shape_step;
 mod smoothing;
 mod soften;
 mod springs;
@@ -40,5 +41,6 @@ pub use model::{
     Attachment, Hold, Limit, Link, Merge, Model, NO_CORNER, PanelMesh, SeamPair, Spring, SpringKind, Strand,
 };
 pub use needs::{Maps, Needs};
+pub use shape_step::{ShapeKind, ShapeStep};
 pub use status::Status;
 pub use step::StepSettings;

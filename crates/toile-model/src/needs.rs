@@ -21,8 +21,8 @@ pub struct Needs {
     pub maps: Maps,
     /// Air around the cloth.
     pub wind: bool,
-    /// An analytic sphere.
-    pub sphere: bool,
+    /// Analytic shapes.
+    pub shapes: bool,
     /// Held edges.
     pub holds: bool,
     /// Open seams.
@@ -38,12 +38,12 @@ pub struct Needs {
 }
 
 impl Needs {
-    /// What this model needs, with or without maps and sphere.
+    /// What this model needs, with or without maps and shapes.
     ///
     /// # Panics
     /// When the rule of the settings is hierarchical and that of the model is not, or when there is a polish under a rule that is not
     /// predictive.
-    pub fn new(model: &Model, settings: &StepSettings, maps: Maps, sphere: bool) -> Self {
+    pub fn new(model: &Model, settings: &StepSettings, maps: Maps, shapes: bool) -> Self {
         let hierarchical = Rule::Hierarchical;
         assert!(
             settings.rule != hierarchical || model.rule == hierarchical,
@@ -58,7 +58,7 @@ impl Needs {
         Self {
             wind: settings.wind.is_some(),
             maps,
-            sphere,
+            shapes,
             holds: !model.holds.is_empty() && settings.hold_rate > 0.0,
             seams: !model.seam_pairs.is_empty(),
             rule,
@@ -75,6 +75,6 @@ impl Needs {
 
     /// Whether there is any body to collide with.
     pub fn body(&self) -> bool {
-        self.maps != Maps::None || self.sphere
+        self.maps != Maps::None || self.shapes
     }
 }

@@ -1,8 +1,7 @@
 //! The state that a step changes, and what it is measured against.
 
 use glam::Vec3;
-use toile_model::{Model, StepSettings};
-use toile_scene::Sphere;
+use toile_model::Model;
 
 /// The state of all particles, with the masses that a step reads. Every array has the shape [particle_count].
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -36,33 +35,6 @@ pub struct Midpoints {
     pub positions: Vec<Vec3>,
     /// Velocities [m/s].
     pub velocities: Vec<Vec3>,
-}
-
-/// An analytic sphere as one step meets it, for [`sample_sphere`](crate::step::sample_sphere).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ball {
-    /// Centre at the start of the step [m].
-    pub centre: Vec3,
-    /// Radius with the thickness of the cloth added [m].
-    pub radius: f32,
-    /// Velocity of the centre over the step [m/s].
-    pub velocity: Vec3,
-    /// Angular velocity [rad/s].
-    pub spin: Vec3,
-}
-
-impl Ball {
-    /// The sphere during step `step` (0 is the first).
-    pub fn at(sphere: &Sphere, step: u64, settings: &StepSettings) -> Self {
-        let dt = f64::from(settings.dt);
-        let [start, end] = [step, step + 1].map(|step| sphere.at(step as f64 * dt).0);
-        Self {
-            centre: start.as_vec3(),
-            radius: sphere.radius as f32 + settings.thickness,
-            velocity: ((end - start) / dt).as_vec3(),
-            spin: sphere.spin(step as f64 * dt).as_vec3(),
-        }
-    }
 }
 
 /// How long before the time of the maps a step begins and ends.

@@ -3,18 +3,25 @@
 use crate::limits::{self, part};
 use crate::maps::BodyMaps;
 use crate::step::PolishState;
-use crate::{Ball, Contact, Lag, Particles, Probe, digest, frame, step};
+use crate::{Contact, Lag, Particles, Probe, digest, frame, step};
 use glam::Vec3;
-use toile_model::{Merge, Model, Status, StepSettings};
-use toile_scene::{Polish, Rule, Sphere};
+use toile_model::{Merge, Model, ShapeStep, Status, StepSettings};
+use toile_scene::{Polish, Rule, Shape};
 
 /// What the cloth collides with. The default is nothing: then no contact kernel runs.
 #[derive(Clone, Debug, Default)]
 pub struct Colliders {
     /// Maps of a body mesh, with the thickness of the cloth in them.
     pub maps: Option<BodyMaps>,
-    /// An analytic sphere, without thickness.
-    pub sphere: Option<Sphere>,
+    /// Analytic shapes, without thickness.
+    pub shapes: Vec<Shape>,
+}
+
+impl Colliders {
+    /// Whether there is any body.
+    fn any(&self) -> bool {
+        self.maps.is_some() || !self.shapes.is_empty()
+    }
 }
 
 /// A simulation on the CPU, for snapshot tests and for machines without adapter. It gives the same answer everywhere.
@@ -78,8 +85,7 @@ pub struct Reference {
 impl Reference {
     /// A simulation of `model` at rest.
     pub fn new(model: &Model, settings: &StepSettings, colliders: Colliders) -> Self {
-        let has_body = colliders.maps.is_some() || colliders.sphere.is_some();
-        let contact_count = if has_body { model.positions.len() } else { 0 };
+        let contact_count = if colliders.any() { model.positions.len() } else { 0 };
         Self {
             particles: Particles::new(model),
             contacts: vec![Contact::default(); contact_count],
@@ -126,7 +132,7 @@ impl Reference {
     fn one_step(&mut self, lag: Lag) {
         let Self { model, settings, particles, .. } = self;
         let dt = settings.dt;
-        let has_body = self.colliders.maps.is_some() || self.colliders.sphere.is_some();
+        let has_body = self.colliders.any();
 
         let mut forces = step::spring_forces(particles, &model.links, settings);
         if let Some(wind) = &settings.wind {
@@ -168,7 +174,7 @@ impl Reference {
         let Self { model, settings, particles, contacts, limit_impulses, .. } = self;
         let touched = (!contacts.is_empty()).then_some(contacts.as_slice());
         limits::sweep(particles, model, settings, touched, limit_impulses);
-        if self.colliders.maps.is_some() || self.colliders.sphere.is_some() {
+        if self.colliders.any() {
             self.collide(lag);
         }
         let Self { model, settings, particles, .. } = self;
@@ -206,10 +212,8 @@ impl Reference {
             Some(maps) => step::sample_maps(positions, velocities, maps, &self.settings),
             None => vec![Probe::default(); positions.len()],
         };
-        if let Some(sphere) = &self.colliders.sphere {
-            let ball = Ball::at(sphere, self.step, &self.settings);
-            step::sample_sphere(&mut probes, positions, velocities, &ball, &self.settings);
-        }
+        let shapes = self.colliders.shapes.iter().map(|shape| ShapeStep::of(shape, self.step, &self.settings));
+        step::sample_shapes(&mut probes, positions, velocities, &shapes.collect::<Vec<_>>(), &self.settings);
         probes
     }
 

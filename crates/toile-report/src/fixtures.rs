@@ -3,7 +3,7 @@
 use crate::LabError;
 use glam::{DVec2, DVec3};
 use toile::files::{BodyOptions, parse_body};
-use toile::scene::{Fabric, Mesh, Pin, Settings, Sheet, Sphere, SphereMotion, Threshold};
+use toile::scene::{Fabric, Mesh, Pin, Settings, Shape, Sheet, Threshold};
 
 const BODY: &[u8] = include_bytes!("../../../fixtures/bodies/walking_woman.glb");
 
@@ -44,9 +44,12 @@ pub fn square(n: u32, side: f64, corner: DVec3, down: DVec3, pins: Vec<Pin>) -> 
     }
 }
 
+/// Radius of [`ball`] [m].
+pub const BALL_RADIUS: f64 = 0.25;
+
 /// A sphere of radius 0.25 m around the origin.
-pub fn ball() -> Sphere {
-    Sphere { centre: DVec3::ZERO, radius: 0.25, motion: SphereMotion::Still }
+pub fn ball() -> Shape {
+    Shape::sphere(DVec3::ZERO, BALL_RADIUS)
 }
 
 /// The built-in body, arms away from the trunk.

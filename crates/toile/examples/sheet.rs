@@ -8,7 +8,7 @@ use std::error::Error;
 use std::path::Path;
 use toile::gpu::readback::read_vec4s;
 use toile::model::{Model, StepSettings};
-use toile::scene::{Fabric, Mesh, Settings, Sheet, Sphere, SphereMotion};
+use toile::scene::{Fabric, Mesh, Settings, Shape, Sheet};
 use toile::{Cloth, Colliders, files};
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -28,10 +28,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         down: DVec3::NEG_Z,
         pins: Vec::new(),
     };
-    let sphere = Sphere { centre: DVec3::ZERO, radius: 0.25, motion: SphereMotion::Still };
+    let sphere = Shape::sphere(DVec3::ZERO, 0.25);
     let model = Model::from_sheet(&sheet, &settings);
     let step = StepSettings::new(&settings, &model);
-    let colliders = Colliders { maps: None, sphere: Some(sphere) };
+    let colliders = Colliders { maps: None, shapes: vec![sphere] };
     let mut cloth = Cloth::new(&device, &model, &step, colliders)?;
 
     for frame in 1..=120 {

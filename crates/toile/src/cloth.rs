@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::sync::Arc;
 use toile_gpu::{BodyMaps, Kernel, PassTime, Plan, Solver, Timer};
 use toile_model::{Merge, Model, Status, StepSettings};
-use toile_scene::Sphere;
+use toile_scene::Shape;
 use wgpu::util::DeviceExt;
 
 /// What a cloth collides with.
@@ -14,13 +14,13 @@ use wgpu::util::DeviceExt;
 pub struct Colliders {
     /// Mesh bodies and inner garments, as maps.
     pub maps: Option<Arc<BodyMaps>>,
-    /// An analytic sphere.
-    pub sphere: Option<Sphere>,
+    /// Analytic shapes; their order does not matter.
+    pub shapes: Vec<Shape>,
 }
 
 impl Colliders {
     fn borrowed(&self) -> toile_gpu::Colliders<'_> {
-        toile_gpu::Colliders { maps: self.maps.as_deref(), sphere: self.sphere.clone() }
+        toile_gpu::Colliders { maps: self.maps.as_deref(), shapes: self.shapes.clone() }
     }
 }
 

@@ -137,7 +137,7 @@ impl Outfit {
                 None => BodyMaps::new(device, shown, true)?,
                 Some(inner) => inner.maps.new_alike(device),
             });
-            let colliders = Colliders { maps: Some(maps.clone()), sphere: None };
+            let colliders = Colliders { maps: Some(maps.clone()), shapes: Vec::new() };
             let cloth = match dressed.last() {
                 None => Cloth::new(device, model, settings, colliders)?,
                 Some(inner) => inner.cloth.new_alike(device, model, settings, colliders)?,

@@ -3,7 +3,7 @@
 use crate::args::PlanOf;
 use crate::commands::{outfit, print};
 use crate::pattern::{self, Pattern};
-use crate::simulate::{check_bodies, sphere};
+use crate::simulate::{check_bodies, shapes};
 use crate::steps::step_settings;
 use anyhow::Result;
 use glam::Vec3;
@@ -13,7 +13,7 @@ use std::fmt;
 use toile::files::{read_scene, write_atomically};
 use toile::gpu::{BodyMaps, Kernel, KernelRuns, Pass, Plan, kernel_runs};
 use toile::model::{MapFrame, Maps, Merge, Model, Needs, StepSettings};
-use toile::scene::{Body, Cloth, Scene};
+use toile::scene::{Body, Cloth, Scene, Shape};
 
 /// Prints passes, dispatches and bytes of every cloth of a scene; draws the limits of all of them when a picture is wanted.
 pub fn run(arguments: &PlanOf) -> Result<()> {
@@ -83,7 +83,7 @@ struct KernelPlan {
 /// The plans of all cloths; a garment has one for sewing and one for draping.
 fn plans(scene: &Scene, patterns: &[Pattern]) -> Result<Vec<ClothPlan>> {
     check_bodies(scene)?;
-    let sphere = sphere(scene)?.is_some();
+    let shapes = shapes(scene);
     let mut bounds = bounds(scene);
     let mut plans = Vec::new();
     for Pattern { name, open, sewn, .. } in patterns {
@@ -96,8 +96,13 @@ fn plans(scene: &Scene, patterns: &[Pattern]) -> Result<Vec<ClothPlan>> {
         let map_bytes =
             bounds.map_or(0, |b| BodyMaps::bytes_over(&MapFrame::around(b, scene.settings.texel as f32), false));
         for (state, model, settings) in &models {
-            let needs = Needs::new(model, settings, if bounds.is_some() { Maps::Still } else { Maps::None }, sphere);
-            plans.push(ClothPlan::new(name, state, model, settings, &needs, map_bytes));
+            let needs = Needs::new(
+                model,
+                settings,
+                if bounds.is_some() { Maps::Still } else { Maps::None },
+                !shapes.is_empty(),
+            );
+            plans.push(ClothPlan::new(name, state, model, settings, &needs, &shapes, map_bytes));
         }
         // A later cloth lies over this one. Where it will hang is not known; near the body it changes little.
         bounds = bounds.or_else(|| around(models.iter().flat_map(|(_, model, _)| &model.positions)));
@@ -113,7 +118,7 @@ fn bounds(scene: &Scene) -> Option<[Vec3; 2]> {
         .iter()
         .filter_map(|body| match body {
             Body::Mesh(mesh) => mesh.bounds(),
-            Body::Moving(_) | Body::Sphere(_) => None,
+            Body::Moving(_) | Body::Shape(_) => None,
         })
         .flat_map(|[low, high]| [low - thickness, high + thickness])
         .collect();
@@ -131,10 +136,11 @@ impl ClothPlan {
         model: &Model,
         settings: &StepSettings,
         needs: &Needs,
+        shapes: &[Shape],
         map_bytes: u64,
     ) -> Self {
         let plan = Plan::new(model, needs, settings);
-        let mut buffers = plan.buffer_sizes(model, settings);
+        let mut buffers = plan.buffer_sizes(model, settings, shapes);
         buffers.insert("indices".to_owned(), 12 * model.triangles().len() as u64);
         let bytes = buffers.values().sum();
         Self {

@@ -5,10 +5,10 @@ use crate::args::{Backend, Rules};
 use crate::commands::print;
 use crate::engine::Computer;
 use crate::interrupt::Interrupted;
-use crate::output::{self, sphere_mesh};
+use crate::output;
 use crate::picture::{self, Drawn, View};
 use crate::progress::Progress;
-use crate::simulate::sphere;
+use crate::simulate::shapes;
 use crate::steps::step_settings;
 use anyhow::{Result, bail};
 use glam::{DVec3, Vec3};
@@ -82,7 +82,7 @@ fn try_rule(
     quiet: bool,
 ) -> Result<(Row, Mesh, Option<Mesh>)> {
     let scene = &file.scene;
-    let ([Cloth::Sheet(sheet)], sphere) = (scene.cloths.as_slice(), sphere(scene)?) else {
+    let ([Cloth::Sheet(sheet)], shapes) = (scene.cloths.as_slice(), shapes(scene)) else {
         bail!("scene {} is not one sheet: the rules are compared on a single sheet", scene.name);
     };
     if scene.settings.velocity_modification.polish.is_some() {
@@ -91,14 +91,14 @@ fn try_rule(
             scene.name
         );
     }
-    if scene.bodies.len() != usize::from(sphere.is_some()) {
+    if scene.bodies.len() != shapes.len() || shapes.len() > 1 {
         bail!("scene {} has a mesh body: the rules are compared on a sheet alone or with a sphere", scene.name);
     }
     let mut settings = scene.settings.clone();
     settings.velocity_modification.rule = rule;
     let model = Model::from_sheet(sheet, &settings);
     let step = step_settings(name, &settings, &model)?;
-    let mut engine = computer.start(&model, &step, &[], sphere.clone(), settings.texel as f32)?;
+    let mut engine = computer.start(&model, &step, &[], shapes.clone(), settings.texel as f32)?;
     let mut state = engine.state()?;
     let mut last = Status::default();
     let mut row = Row {
@@ -114,7 +114,7 @@ fn try_rule(
     };
     let lag = |positions: &[Vec3], status: &Status| {
         let time = status.step as f64 * f64::from(step.dt);
-        sphere.as_ref().map(|sphere| lag(positions, &model.masses, sphere.at(time).0))
+        shapes.first().map(|sphere| lag(positions, &model.masses, sphere.at(time).0))
     };
     let mut lags = Vec::new();
     let progress = Progress::new(name, quiet);
@@ -141,7 +141,7 @@ fn try_rule(
     row.lag_mean_m = row.lag_m.map(|_| lags.iter().sum::<f64>() / lags.len() as f64);
     row.lag_max_over_run_m = lags.iter().copied().reduce(f64::max);
     let end = last.step as f64 * f64::from(step.dt);
-    let ball = sphere.as_ref().map(|sphere| sphere_mesh(sphere, end));
+    let ball = shapes.first().map(|sphere| sphere.mesh(end));
     Ok((row, Mesh { positions: state.positions, normals: state.normals, triangles: model.triangles() }, ball))
 }
 

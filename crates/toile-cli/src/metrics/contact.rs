@@ -3,7 +3,7 @@
 use super::measures::max_and_p99;
 use crate::worn::Worn;
 use glam::DVec3;
-use toile::scene::{Body, Mesh, Sphere};
+use toile::scene::{Body, Mesh, Shape};
 use toile_reference::ExactDistance;
 
 /// Everything that a cloth can touch. Built once per run; each finished garment is added for the next one.
@@ -38,7 +38,7 @@ pub fn is_far(point: DVec3, depth: f64, garments: &[ExactDistance], reach: f64) 
 
 enum Exact {
     Mesh(Box<ExactDistance>),
-    Sphere(Sphere),
+    Shape(Shape),
 }
 
 impl Exact {
@@ -46,7 +46,7 @@ impl Exact {
     fn penetration(&self, point: DVec3, time: f64) -> f64 {
         match self {
             Self::Mesh(mesh) => mesh.penetration(point),
-            Self::Sphere(sphere) => sphere.radius - point.distance(sphere.at(time).0),
+            Self::Shape(shape) => shape.depth(point, time),
         }
     }
 }
@@ -57,7 +57,7 @@ impl Surfaces {
         let exact = |body: &Body| match body {
             Body::Mesh(mesh) => Exact::Mesh(Box::new(ExactDistance::new(mesh))),
             Body::Moving(body) => Exact::Mesh(Box::new(ExactDistance::new(&body.mesh))),
-            Body::Sphere(sphere) => Exact::Sphere(sphere.clone()),
+            Body::Shape(shape) => Exact::Shape(shape.clone()),
         };
         Self { thickness, bodies: bodies.iter().map(exact).collect(), garments: Vec::new() }
     }

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 use toile_files::{SceneFile, read_fabric, read_scene};
 use toile_scene::{
-    Body, Cloth, Fabric, Friction, Polish, Rule, Sheet, SphereMotion, Threshold, VelocityModification, Wind,
+    Body, Cloth, Fabric, Form, Friction, Polish, Rule, ShapeMotion, Sheet, Threshold, VelocityModification, Wind,
 };
 
 fn overrides(pairs: &[(&str, &str)]) -> Vec<(String, String)> {
@@ -36,16 +36,17 @@ fn the_fixtures_are_the_scenes_of_the_measurements() {
 
     for (name, moves) in [("ball", false), ("moving-ball", true)] {
         let file = read_scene(&fixture(&format!("scenes/{name}.toml")), &[]).expect("the fixture");
-        let [Body::Sphere(sphere)] = file.scene.bodies.as_slice() else { panic!("one sphere") };
-        assert_eq!((file.scene.name.as_str(), sphere.radius), (name, 0.25));
-        assert_eq!(sphere.motion != SphereMotion::Still, moves);
+        let [Body::Shape(sphere)] = file.scene.bodies.as_slice() else { panic!("one sphere") };
+        let Form::Sphere { radius } = sphere.form;
+        assert_eq!((file.scene.name.as_str(), radius), (name, 0.25));
+        assert_eq!(sphere.motion != ShapeMotion::Still, moves);
         let sheet = crate::scenes::sheet(&file);
         assert!(sheet.pins.is_empty());
         // The outside faces up, and the middle of the sheet is above the sphere.
         assert_eq!(sheet.right.cross(sheet.down), DVec3::Y);
         let middle = sheet.corner + 0.5 * (sheet.right * sheet.size.x + sheet.down * sheet.size.y);
         assert_eq!((middle.x, middle.z), (0.0, 0.0));
-        assert!(middle.y > sphere.radius);
+        assert!(middle.y > radius);
     }
 }
 
@@ -318,7 +319,7 @@ fn bodies_of_a_scene_move_by_clip_keys_or_sequence() {
     );
     write(at, "scene.toml", &text);
     let file = read_scene(&at.join("scene.toml"), &[]).expect("the scene");
-    let [Body::Moving(walk), Body::Moving(keys), Body::Moving(frames), Body::Mesh(still), Body::Sphere(sphere)] =
+    let [Body::Moving(walk), Body::Moving(keys), Body::Moving(frames), Body::Mesh(still), Body::Shape(sphere)] =
         &file.scene.bodies[..]
     else {
         panic!("five bodies")

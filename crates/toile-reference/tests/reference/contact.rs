@@ -2,10 +2,10 @@
 
 use crate::support::{GRAVITY, Grid, settings};
 use glam::{DVec3, Vec3, vec3};
-use toile_model::{NO_CORNER, StepSettings};
+use toile_model::{NO_CORNER, ShapeStep, StepSettings};
 use toile_reference::maps::{BodyMaps, Surface, render_maps};
-use toile_reference::{Ball, Colliders, Contact, Probe, Reference, step};
-use toile_scene::{Friction, Mesh, Rule, Sphere, SphereMotion};
+use toile_reference::{Colliders, Contact, Probe, Reference, step};
+use toile_scene::{Friction, Mesh, Rule, Shape, ShapeMotion};
 
 /// Coulomb coefficient of the plate: it holds up to 16.7°.
 const FRICTION: f32 = 0.3;
@@ -32,7 +32,7 @@ fn slide(maps: &BodyMaps, degrees: f32, law: Friction) -> (f32, f32, f32) {
         position.z = 0.0;
     }
     let start = model.positions[12].x;
-    let mut reference = Reference::new(&model, &settings, Colliders { maps: Some(maps.clone()), sphere: None });
+    let mut reference = Reference::new(&model, &settings, Colliders { maps: Some(maps.clone()), shapes: Vec::new() });
     let mut off = 0.0_f32;
     for _ in 0..600 {
         reference.step();
@@ -170,18 +170,18 @@ fn the_nearer_side_of_the_plate_answers() {
 /// Smallest distance [m] of a particle to a sphere of radius `reach` [m] over 2 s of a sheet dropped on one of 0.2 m.
 ///
 /// The cloth strikes at 1 m/s, 1.7 mm per step; its own contact has the last word, so it keeps its thickness of 1 mm all the same.
-fn sphere_clearance(motion: SphereMotion, reach: f32) -> f32 {
-    let sphere = Sphere { centre: DVec3::new(0.0, -0.25, 0.0), radius: 0.2, motion };
+fn sphere_clearance(motion: ShapeMotion, reach: f32) -> f32 {
+    let sphere = Shape { motion, ..Shape::sphere(DVec3::new(0.0, -0.25, 0.0), 0.2) };
     let settings = StepSettings { dt: 1.0 / 600.0, rule: Rule::Predictive, sweeps: 2, damping: 0.5, ..settings() };
     let model = Grid::horizontal(21, 0.03).model();
-    let colliders = Colliders { maps: None, sphere: Some(sphere.clone()) };
+    let colliders = Colliders { maps: None, shapes: vec![sphere.clone()] };
     let mut reference = Reference::new(&model, &settings, colliders);
     let mut touched = 0;
     let mut clearance = f32::INFINITY;
     for k in 0..1200 {
         reference.step();
         touched = touched.max(reference.contacts().iter().filter(|contact| contact.touching).count());
-        let centre = Ball::at(&sphere, k, &settings).centre;
+        let centre = ShapeStep::of(&sphere, k, &settings).centre;
         for position in reference.positions() {
             clearance = clearance.min(position.distance(centre) - reach);
         }
@@ -193,20 +193,20 @@ fn sphere_clearance(motion: SphereMotion, reach: f32) -> f32 {
 
 #[test]
 fn a_sheet_dropped_on_a_sphere_stays_outside() {
-    let clearance = sphere_clearance(SphereMotion::Still, 0.2);
+    let clearance = sphere_clearance(ShapeMotion::Still, 0.2);
     assert!(clearance > 9e-4, "{clearance}");
 }
 
 #[test]
 fn a_sheet_on_a_moving_sphere_stays_outside() {
-    let swing = SphereMotion::Swing { amplitude: DVec3::new(0.1, 0.05, 0.0), period: 1.0 };
+    let swing = ShapeMotion::Swing { amplitude: DVec3::new(0.1, 0.05, 0.0), period: 1.0 };
     let clearance = sphere_clearance(swing, 0.2);
     assert!(clearance > 4e-4, "{clearance}");
 }
 
 #[test]
 fn the_oracle_of_the_sphere_sees_a_larger_one() {
-    assert!(sphere_clearance(SphereMotion::Still, 0.202) < 0.0);
+    assert!(sphere_clearance(ShapeMotion::Still, 0.202) < 0.0);
 }
 
 #[test]

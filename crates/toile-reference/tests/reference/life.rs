@@ -4,12 +4,12 @@ use crate::support::{Grid, settings};
 use glam::DVec3;
 use toile_model::StepSettings;
 use toile_reference::{Colliders, Reference};
-use toile_scene::{Rule, Sphere, SphereMotion};
+use toile_scene::{Rule, Shape};
 
 fn draped() -> Reference {
-    let sphere = Sphere { centre: DVec3::new(0.0, -0.11, 0.0), radius: 0.1, motion: SphereMotion::Still };
+    let sphere = Shape::sphere(DVec3::new(0.0, -0.11, 0.0), 0.1);
     let settings = StepSettings { rule: Rule::Predictive, sweeps: 2, ..settings() };
-    let colliders = Colliders { maps: None, sphere: Some(sphere) };
+    let colliders = Colliders { maps: None, shapes: vec![sphere] };
     let mut reference = Reference::new(&Grid::horizontal(16, 0.02).model(), &settings, colliders);
     for _ in 0..20 {
         reference.frame();

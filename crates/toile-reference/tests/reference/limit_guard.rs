@@ -4,7 +4,7 @@ use crate::support::{Grid, settings};
 use glam::{DVec3, Vec3};
 use toile_model::StepSettings;
 use toile_reference::{Colliders, Particles, Reference, limits, step};
-use toile_scene::{Rule, Sphere, SphereMotion};
+use toile_scene::{Rule, Shape};
 
 const DT: f32 = 0.01;
 
@@ -63,9 +63,9 @@ fn on_a_ball(rule: Rule, stretch: f64) -> (f32, f32) {
     let model = Grid { columns: 3, rows: 1, pins: vec![0, 2], ..Grid::horizontal(3, 0.02) }.model();
     let rise = 0.02 * ((1.0 + stretch).powi(2) - 1.0).sqrt();
     let centre = DVec3::new(0.0, rise - 0.051, model.positions[1].z.into());
-    let sphere = Sphere { centre, radius: 0.05, motion: SphereMotion::Still };
+    let sphere = Shape::sphere(centre, 0.05);
     let settings = StepSettings { rule, sweeps: 3, damping: 2.0, ..settings() };
-    let mut reference = Reference::new(&model, &settings, Colliders { maps: None, sphere: Some(sphere) });
+    let mut reference = Reference::new(&model, &settings, Colliders { maps: None, shapes: vec![sphere] });
     (0..600).for_each(|_| reference.step());
     let middle = reference.positions()[1];
     let elongation =

@@ -4,15 +4,15 @@ use crate::support::{GRAVITY, Grid, settings};
 use glam::{DVec3, Vec3};
 use toile_model::{Model, StepSettings};
 use toile_reference::{Colliders, Reference};
-use toile_scene::{Rule, Sphere, SphereMotion};
+use toile_scene::{Rule, Shape};
 
 #[test]
 fn pinned_particles_stay_where_they_are() {
-    let sphere = Sphere { centre: DVec3::new(0.0, -0.05, 0.0), radius: 0.06, motion: SphereMotion::Still };
+    let sphere = Shape::sphere(DVec3::new(0.0, -0.05, 0.0), 0.06);
     for rule in [Rule::None, Rule::Predictive, Rule::Position] {
         let model = Grid { pins: vec![0, 24, 40], ..Grid::horizontal(9, 0.02) }.model();
         let settings = StepSettings { rule, ..settings() };
-        let colliders = Colliders { maps: None, sphere: Some(sphere.clone()) };
+        let colliders = Colliders { maps: None, shapes: vec![sphere.clone()] };
         let mut reference = Reference::new(&model, &settings, colliders);
         for _ in 0..300 {
             reference.step();

@@ -1,6 +1,6 @@
 //! Sheets that come to rest, for the experiments that ask where.
 
-use crate::fixtures::{ball, fabric, square};
+use crate::fixtures::{BALL_RADIUS, ball, fabric, square};
 use crate::{Lab, LabError, Run};
 use glam::DVec3;
 use toile::Colliders;
@@ -88,7 +88,7 @@ impl RestScene {
                     DVec3::new(HAMMOCK_WIDTH * flat.x, -HAMMOCK_SAG * (1.0 - s * s), flat.z)
                 }
                 RestScene::Cap => {
-                    let radius = ball().radius + CAP_HEIGHT;
+                    let radius = BALL_RADIUS + CAP_HEIGHT;
                     let way = flat.x.hypot(flat.z);
                     let (sin, cos) = (way / radius).sin_cos();
                     let outward = if way > 0.0 { radius * sin / way } else { 0.0 };
@@ -121,7 +121,7 @@ pub fn come_to_rest(lab: &Lab, scene: RestScene, change: RestSettings) -> Result
     step.dt /= change.step_division as f32;
     step.steps_per_frame *= change.step_division;
     let steps_per_second = f64::from(step.steps_per_frame) * change.frame_rate;
-    let colliders = Colliders { maps: None, sphere: (scene == RestScene::Cap).then(ball) };
+    let colliders = Colliders { maps: None, shapes: (scene == RestScene::Cap).then(ball).into_iter().collect() };
     let mut run = Run::new(lab, model, step, colliders)?;
     let mut speed = f64::INFINITY;
     while run.time() < SECONDS_MAX {

@@ -1,11 +1,11 @@
 //! Stability atlas: the largest stable step.
 
-use crate::fixtures::{ball, hanging_sheet};
+use crate::fixtures::hanging_sheet;
 use crate::page::{Axis, Block, Cell, Plot, Section, Series, SeriesStyle, Table};
 use crate::{Experiment, Lab, LabError};
 use std::f64::consts::PI;
 use toile::model::{Model, StepSettings};
-use toile::scene::{Rule, SphereMotion, VelocityModification};
+use toile::scene::{Rule, Shape, VelocityModification};
 use toile_reference::{Colliders, Reference};
 
 /// The row of the table.
@@ -100,11 +100,9 @@ pub fn stable_step(corner: &Corner) -> StableStep {
 }
 
 fn survives(model: &Model, step: &StepSettings, corner: &Corner) -> bool {
-    let mut sphere = ball();
     // In the way of the lower edge.
-    (sphere.centre, sphere.radius) = (glam::DVec3::new(0.5, -0.5, 0.3), 0.15);
-    sphere.motion = SphereMotion::Still;
-    let colliders = Colliders { maps: None, sphere: corner.contact.then_some(sphere) };
+    let sphere = Shape::sphere(glam::DVec3::new(0.5, -0.5, 0.3), 0.15);
+    let colliders = Colliders { maps: None, shapes: if corner.contact { vec![sphere] } else { Vec::new() } };
     let mut reference = Reference::new(model, step, colliders);
     let steps = (corner.seconds / f64::from(step.dt)).ceil() as u32;
     for index in 0..steps {

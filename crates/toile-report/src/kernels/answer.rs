@@ -11,17 +11,17 @@ pub fn answer(kernel: Kernel, input: &mut Input) {
     let dt = settings.dt;
     let particles = &mut input.particles;
     match kernel {
-        Kernel::SpringForces => input.forces = step::spring_forces(particles, &before.links, settings),
+        Kernel::SpringForces => input.forces = step::spring_forces(particles, &before.model.links, settings),
         Kernel::QuadWind => {
             let wind = settings.wind.as_ref().expect("the input has wind");
-            input.quad_winds = step::quad_wind(particles, &before.quads, &before.particle_quads, wind, dt);
+            input.quad_winds = step::quad_wind(particles, &before.model.quads, &before.model.particle_quads, wind, dt);
         }
         Kernel::WindForces => {
-            step::wind_forces(&mut input.forces, &before.quad_winds, &before.quads, &before.particle_quads);
+            step::wind_forces(&mut input.forces, &before.quad_winds, &before.model.quads, &before.model.particle_quads);
         }
         Kernel::Reaction => step::reaction(&mut input.forces, particles, &before.contacts, settings),
         Kernel::Euler => step::euler(&mut particles.velocities, &before.forces, &before.particles.inverse_masses, dt),
-        Kernel::HoldEdges => step::hold_edges(particles, &before.holds, &before.held_particles, settings),
+        Kernel::HoldEdges => step::hold_edges(particles, &before.model.holds, &before.model.held_particles, settings),
         Kernel::CloseSeams => step::close_seams(particles, before.colour_pairs(), dt),
         Kernel::LimitZero => step::limit_zero(particles, before.colour_limits()),
         Kernel::LimitAverage => step::limit_average(particles, before.colour_limits()),
@@ -29,10 +29,10 @@ pub fn answer(kernel: Kernel, input: &mut Input) {
             step::limit_directional(particles, before.colour_limits(), Some(&before.contacts), settings);
         }
         Kernel::LimitStrands => {
-            let (line, lengths) = (&before.strand_particles, &before.strand_lengths);
+            let (line, lengths) = (&before.model.strand_particles, &before.model.strand_lengths);
             step::limit_strands(particles, before.colour_strands(), line, lengths, dt);
         }
-        Kernel::LimitAttachments => step::limit_attachments(particles, &before.attachments, dt),
+        Kernel::LimitAttachments => step::limit_attachments(particles, &before.model.attachments, dt),
         Kernel::WarmStart => {
             step::warm_start(particles, before.colour_limits(), &mut input.limit_impulses[before.colour()]);
         }
@@ -43,7 +43,7 @@ pub fn answer(kernel: Kernel, input: &mut Input) {
         Kernel::KeepOut => step::keep_out(particles, &before.probes[..before.particles.positions.len()], settings),
         Kernel::LimitPosition => step::limit_position(particles, before.colour_limits()),
         Kernel::QuadMidpoints => {
-            input.midpoints = step::quad_midpoints(&particles.positions, &particles.velocities, &before.quads);
+            input.midpoints = step::quad_midpoints(&particles.positions, &particles.velocities, &before.model.quads);
         }
         Kernel::SampleMaps => {
             let [positions, velocities] = before.points();
@@ -74,21 +74,22 @@ pub fn answer(kernel: Kernel, input: &mut Input) {
             input.body.velocities =
                 maps::vertex_velocities(&before.body.last_positions, &before.body.positions, before.rate);
         }
-        Kernel::SampleSphere => {
+        Kernel::SampleShapes => {
             let [positions, velocities] = before.points();
             if !before.after_maps {
                 input.probes.fill(Probe::default());
             }
-            step::sample_sphere(&mut input.probes, &positions, &velocities, &before.ball, settings);
+            step::sample_shapes(&mut input.probes, &positions, &velocities, &before.shapes, settings);
         }
         Kernel::Collide => {
             let (particle_probes, quad_probes) = before.probes.split_at(before.particle_count());
             let probes = step::Probes { particles: particle_probes, quads: quad_probes };
-            input.contacts = step::collide(particles, &before.particle_quads, &before.midpoints, probes, settings);
+            input.contacts =
+                step::collide(particles, &before.model.particle_quads, &before.midpoints, probes, settings);
         }
         Kernel::MeasureExcess => {
             let target = before.polish().target as f32;
-            input.polish_state.elongation_max = step::measure_excess(particles, &before.limits, target, dt);
+            input.polish_state.elongation_max = step::measure_excess(particles, &before.model.limits, target, dt);
         }
         Kernel::GrantSweep => {
             let granted = step::grant_sweep(&mut input.polish_state, before.polish().sweeps);
@@ -97,7 +98,8 @@ pub fn answer(kernel: Kernel, input: &mut Input) {
         }
         Kernel::MoveParticles => step::move_particles(&mut particles.positions, &before.particles.velocities, dt),
         Kernel::ParticleNormals => {
-            input.normals = frame::particle_normals(&particles.positions, &before.quads, &before.particle_quads);
+            input.normals =
+                frame::particle_normals(&particles.positions, &before.model.quads, &before.model.particle_quads);
         }
         Kernel::ParticleStatus => {
             let status = frame::particle_status(particles);
@@ -108,16 +110,16 @@ pub fn answer(kernel: Kernel, input: &mut Input) {
         }
         Kernel::TotalEnergy => input.status.kinetic_energy = frame::total_energy(&before.energy_partials),
         Kernel::LimitStatus => {
-            let status = frame::limit_status(&particles.positions, &before.limits, settings.aim());
+            let status = frame::limit_status(&particles.positions, &before.model.limits, settings.aim());
             input.status.elongation_max = status.elongation_max.to_bits();
             input.status.over_long_count = status.over_long_count;
         }
         Kernel::LongestLimit => {
-            let longest = frame::longest_limit(&particles.positions, &before.limits);
+            let longest = frame::longest_limit(&particles.positions, &before.model.limits);
             input.status.longest_limit = longest.map_or(0, |index| u32::MAX - index);
         }
         Kernel::SeamStatus => {
-            input.status.seam_gap_max = frame::seam_status(&particles.positions, &before.seam_pairs).to_bits();
+            input.status.seam_gap_max = frame::seam_status(&particles.positions, &before.model.seam_pairs).to_bits();
         }
         Kernel::MergeParticles => frame::merge_particles(&before.open, &before.members, particles),
         Kernel::StateCopy => input.copies = frame::state_copy(particles),

@@ -87,7 +87,7 @@ impl Compiled {
             Some(view) => wgpu::BindingResource::TextureView(view),
             None => buffers[binding.name.as_str()].as_entire_binding(),
         });
-        let offsets: &[u32] = if self.program.has_moving_uniform() { &[0] } else { &[] };
+        let offsets: &[u32] = if self.program.offset_role().is_some() { &[0] } else { &[] };
         let [x, y] = Pass::over(self.kernel, items).workgroups();
         gpu.run(|encoder| {
             let mut compute = encoder.begin_compute_pass(&Default::default());

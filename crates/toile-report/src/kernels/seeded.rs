@@ -5,13 +5,13 @@ use crate::{Gpu, Layers, Random};
 use glam::{DVec3, Vec3, Vec4, dvec3, vec3};
 use toile::gpu::{GpuError, Surface};
 use toile::model::{
-    Attachment, Csr, Hold, Limit, Link, MapFrame, Model, NO_CORNER, STRAND_PARTICLES_MAX, SeamPair, StepSettings,
-    Strand,
+    Attachment, Csr, Hold, Limit, Link, MapFrame, Model, NO_CORNER, STRAND_PARTICLES_MAX, SeamPair, ShapeKind,
+    ShapeStep, StepSettings, Strand,
 };
 use toile::scene::{Displacement, Fabric, Friction, Influence, Mesh, Morphs, Polish, Pose, Settings, Skin, Wind};
 use toile_kernels::{Domain, Kernel, TABLE};
 use toile_reference::step::PolishState;
-use toile_reference::{Ball, Contact, Lag, Midpoints, Particles, Probe, frame};
+use toile_reference::{Contact, Lag, Midpoints, Particles, Probe, frame};
 
 /// What the numbers of a step are: together these lead into every branch that the settings decide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,7 +20,7 @@ pub enum Variant {
     Coulomb,
     /// The papers' friction, and another wind.
     Papers,
-    /// No gravity, and the sphere alone.
+    /// No gravity, and the shapes alone.
     Weightless,
 }
 
@@ -29,6 +29,9 @@ pub const VARIANTS: [Variant; 3] = [Variant::Coulomb, Variant::Papers, Variant::
 
 /// Velocity of the air [m/s]; few digits, so that the mean of four such velocities is exact.
 const WIND: DVec3 = dvec3(1.5, 0.25, -2.0);
+
+/// Middle between two shapes that mirror each other [m]; few digits, so that a point there is as far from both.
+const MIRROR: Vec3 = vec3(-0.25, -0.5, 0.0);
 
 /// How many of each thing there are.
 struct Counts {
@@ -87,12 +90,7 @@ impl Seeds {
                 Domain::Workgroup => 64,
                 _ => items,
             },
-            ball: Ball {
-                centre: vec3(0.1, 0.0, -0.05),
-                radius: 0.35,
-                velocity: vec3(0.5, 0.0, 0.2),
-                spin: vec3(0.3, -1.0, 2.0),
-            },
+            shapes: shapes(),
             after_maps: variant != Variant::Weightless,
             lag: Lag::of(3, 8, settings.dt),
             layers: if kernel == Kernel::SampleMovingMaps { &self.moving_layers } else { &self.layers }.clone(),
@@ -102,23 +100,25 @@ impl Seeds {
             copies: particles.clone(),
             quad_winds: (0..counts.quads).map(|_| random.vector(0.02)).collect(),
             forces: (0..counts.particles).map(|i| force(random, i, &contacts[i as usize])).collect(),
-            links: links(random, counts.particles),
             limit_impulses: limit_impulses(random, &particles, &limits, settings.dt),
-            strands,
-            strand_particles,
-            strand_lengths,
-            attachments: attachments(random, &particles),
-            limits,
-            seam_pairs,
+            model: Model {
+                positions: particles.positions.clone(),
+                masses: particles.masses.clone(),
+                links: links(random, counts.particles),
+                attachments: attachments(random, &particles),
+                particle_quads: particle_quads(random, &counts),
+                limits,
+                seam_pairs,
+                strands,
+                strand_particles,
+                strand_lengths,
+                holds,
+                held_particles,
+                quads,
+                ..Model::default()
+            },
             span,
             share: if variant == Variant::Weightless { 1.0 } else { 0.5 },
-            holds,
-            held_particles,
-            particle_quads: Csr::from_rows((0..counts.particles).map(|_| {
-                let row = if counts.quads == 0 { 0 } else { random.below(5) };
-                (0..row).map(|_| random.below(counts.quads)).collect::<Vec<_>>()
-            })),
-            quads,
             midpoints,
             probes: (0..counts.particles + counts.quads).map(|_| probe(random)).collect(),
             contacts,
@@ -138,7 +138,7 @@ impl Seeds {
         input.copies.velocities.fill(Vec3::ZERO);
         place_at_the_edges(random, &mut input);
         if kernel == Kernel::LongestLimit {
-            let status = frame::limit_status(&input.particles.positions, &input.limits, input.settings.aim());
+            let status = frame::limit_status(&input.particles.positions, &input.model.limits, input.settings.aim());
             input.status.elongation_max = status.elongation_max.to_bits();
         }
         if kernel == Kernel::MeasureExcess {
@@ -148,6 +148,39 @@ impl Seeds {
         carry_by_the_wind(&mut input);
         input
     }
+}
+
+/// None to four quads of each particle, whatever their corners.
+fn particle_quads(random: &mut Random, counts: &Counts) -> Csr<u32> {
+    Csr::from_rows((0..counts.particles).map(|_| {
+        let row = if counts.quads == 0 { 0 } else { random.below(5) };
+        (0..row).map(|_| random.below(counts.quads)).collect::<Vec<_>>()
+    }))
+}
+
+/// Spheres: one alone, two that mirror each other, and two in one place that move differently.
+fn shapes() -> Vec<ShapeStep> {
+    let sphere = ShapeStep {
+        kind: ShapeKind::Sphere,
+        centre: vec3(0.1, 0.0, -0.05),
+        radius: 0.35,
+        velocity: vec3(0.5, 0.0, 0.2),
+        spin: vec3(0.3, -1.0, 2.0),
+    };
+    let mirrored = [-1.0, 1.0].map(|side| ShapeStep {
+        centre: vec3(MIRROR.x + side * 0.125, MIRROR.y, MIRROR.z),
+        radius: 0.2,
+        velocity: Vec3::ZERO,
+        ..sphere
+    });
+    let twins = [vec3(0.3, 0.2, 0.1), vec3(0.3, 0.0, 0.1)].map(|velocity| ShapeStep {
+        centre: vec3(-0.4, 0.4, 0.3),
+        radius: 0.15,
+        velocity,
+        spin: Vec3::ZERO,
+        ..sphere
+    });
+    [[sphere].as_slice(), &mirrored, &twins].concat()
 }
 
 fn counts(domain: Domain, items: u32) -> Counts {
@@ -160,7 +193,7 @@ fn counts(domain: Domain, items: u32) -> Counts {
         Domain::Hold => Counts { particles: 4 * items + 200, holds: items, ..none },
         // Kernels over all pairs take the length of the array; those over a colour take its span.
         Domain::Limit | Domain::SeamPair => Counts { particles: 2 * items + 4, pairs: items, others: 0, ..none },
-        Domain::LimitColour | Domain::SeamColour => {
+        Domain::LimitColour | Domain::LimitColourShare | Domain::SeamColour => {
             Counts { particles: 2 * items + 4, pairs: items, others: 2, ..none }
         }
         Domain::StrandColour => Counts { particles: 8 * items + STRAND_PARTICLES_MAX, others: 2, ..none },
@@ -331,7 +364,10 @@ fn pairs(
     domain: Domain,
 ) -> (std::ops::Range<u32>, Vec<Limit>, Vec<SeamPair>) {
     let order = random.shuffled(counts.particles);
-    let count = if matches!(domain, Domain::Limit | Domain::LimitColour | Domain::SeamPair | Domain::SeamColour) {
+    let count = if matches!(
+        domain,
+        Domain::Limit | Domain::LimitColour | Domain::LimitColourShare | Domain::SeamPair | Domain::SeamColour
+    ) {
         counts.pairs
     } else {
         0
@@ -488,7 +524,7 @@ fn body(random: &mut Random, vertices: u32) -> (Skin, Pose, Posed) {
     (skin, pose, body)
 }
 
-/// Moves some points to the borders of the maps, the centre and the surface of the sphere, and to where there is no number.
+/// Moves some points to the borders of the maps, the centres and the surfaces of the shapes, and to where there is no number.
 fn place_at_the_edges(random: &mut Random, input: &mut Input) {
     let frame = input.layers.read.frame;
     let count = input.particle_count();
@@ -505,13 +541,16 @@ fn place_at_the_edges(random: &mut Random, input: &mut Input) {
                 position.x = frame.origin_x + frame.texel * random.below(frame.columns + 1) as f32;
                 position.y = frame.origin_y - frame.texel * random.below(frame.rows + 1) as f32;
             }
-            13 => *position = input.ball.centre,
+            13 => *position = input.shapes[0].centre,
             // Through the bodies within one step.
             20 | 21 => *velocity = (vec3(0.0, 0.1, 0.0) - *position) * (random.between(0.3, 2.0) / input.settings.dt),
-            // Just at the sphere.
-            17 => {
-                *position = input.ball.centre + random.direction() * (input.ball.radius + random.between(-0.01, 0.01))
+            // Just at a shape.
+            17 | 24 => {
+                let shape = input.shapes[random.below(input.shapes.len() as u32) as usize];
+                *position = shape.centre + random.direction() * (shape.radius + random.between(-0.01, 0.01));
             }
+            // As near to two of them.
+            9 => *position = vec3(MIRROR.x, MIRROR.y, MIRROR.z + random.between(-0.1, 0.1)),
             _ => {}
         }
     }
@@ -520,7 +559,7 @@ fn place_at_the_edges(random: &mut Random, input: &mut Input) {
 /// Lets some quads fly with the air.
 fn carry_by_the_wind(input: &mut Input) {
     let velocity = input.settings.wind.expect("the input has wind").velocity.as_vec3();
-    for corners in input.quads.iter().skip(2).step_by(40) {
+    for corners in input.model.quads.iter().skip(2).step_by(40) {
         for corner in corners.iter().filter(|corner| **corner != NO_CORNER) {
             input.particles.velocities[*corner as usize] = velocity;
         }

@@ -6,7 +6,7 @@ use crate::{Lab, LabError, Layers};
 use glam::{DQuat, DVec3, Vec3};
 use toile::Colliders;
 use toile::model::{Model, StepSettings};
-use toile::scene::{Mesh, RigidKey, RigidMotion, Settings, Sheet, Sphere, SphereMotion};
+use toile::scene::{Mesh, RigidKey, RigidMotion, Settings, Shape, ShapeMotion, Sheet};
 use toile_reference::ExactDistance;
 
 const N: u32 = 12;
@@ -55,7 +55,7 @@ fn inside(lab: &Lab) -> Result<Outcome, LabError> {
     let model = Model::from_sheet(&sheet, &settings);
     let step = StepSettings::new(&settings, &model);
     let layers = Layers::draw(&lab.gpu(), &[(&body, step.thickness)], settings.texel as f32)?;
-    let colliders = Colliders { maps: Some(layers.maps), sphere: None };
+    let colliders = Colliders { maps: Some(layers.maps), shapes: Vec::new() };
     let (run, course) = course(lab, model, step, colliders, FRAMES)?;
     let exact = ExactDistance::new(&body);
     let depth = exact.penetrations(run.positions(lab)?).map_or(f64::NAN, |depth| depth.max);
@@ -74,13 +74,12 @@ fn moved(lab: &Lab, keys: Vec<RigidKey>) -> Result<Outcome, LabError> {
     let (sheet, settings) = hanging_sheet(N);
     let model = Model::from_sheet(&sheet, &settings);
     let step = StepSettings::new(&settings, &model);
-    let motion = SphereMotion::Keys(RigidMotion { keys });
-    let sphere = Sphere { centre: DVec3::ZERO, radius: 0.15, motion };
-    let colliders = Colliders { maps: None, sphere: Some(sphere.clone()) };
+    let motion = ShapeMotion::Keys(RigidMotion { keys });
+    let sphere = Shape { motion, ..Shape::sphere(DVec3::ZERO, 0.15) };
+    let colliders = Colliders { maps: None, shapes: vec![sphere.clone()] };
     let (run, course) = course(lab, model, step, colliders, FRAMES)?;
-    let centre = sphere.at(run.time()).0;
-    let deepest =
-        run.positions(lab)?.iter().map(|p| sphere.radius - p.distance(centre)).fold(f64::NEG_INFINITY, f64::max);
+    let depths = run.positions(lab)?.into_iter().map(|p| sphere.depth(p, run.time()));
+    let deepest = depths.fold(f64::NEG_INFINITY, f64::max);
     let outside = if deepest > 0.0 { format!("{:.2} mm inside", 1e3 * deepest) } else { "outside".to_owned() };
     Ok(Outcome {
         happened: format!("deepest particle {outside} at the end; {}", course.words()),
@@ -98,7 +97,7 @@ fn spin(lab: &Lab) -> Result<Outcome, LabError> {
     // A quarter turn from key to key.
     let keys =
         (0..40).map(|k| key(f64::from(k) / 40.0, DVec3::ZERO, f64::from(k) * std::f64::consts::FRAC_PI_2)).collect();
-    let sphere = Sphere { motion: SphereMotion::Keys(RigidMotion { keys }), ..ball() };
-    let (_, course) = course(lab, model, step, Colliders { maps: None, sphere: Some(sphere) }, FRAMES)?;
+    let sphere = Shape { motion: ShapeMotion::Keys(RigidMotion { keys }), ..ball() };
+    let (_, course) = course(lab, model, step, Colliders { maps: None, shapes: vec![sphere] }, FRAMES)?;
     Ok(Outcome { happened: course.words(), held: course.finite && course.elongation_end < 0.2 })
 }

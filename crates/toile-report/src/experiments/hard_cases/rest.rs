@@ -5,7 +5,7 @@ use crate::fixtures::{ball, fabric, hanging_sheet, square};
 use crate::{Lab, LabError};
 use glam::{DVec3, Vec3};
 use toile::model::{Model, StepSettings};
-use toile::scene::{Settings, Sphere};
+use toile::scene::{Settings, Shape};
 use toile_reference::{Colliders, Reference};
 
 /// Steps at rest by scale: a million in the full report.
@@ -30,10 +30,10 @@ pub(super) const LYING: Case = Case {
     },
 };
 
-fn rest(lab: &Lab, model: Model, settings: Settings, sphere: Option<Sphere>) -> Result<Outcome, LabError> {
+fn rest(lab: &Lab, model: Model, settings: Settings, sphere: Option<Shape>) -> Result<Outcome, LabError> {
     let steps = lab.pick(STEPS[0], STEPS[1]);
     let step = StepSettings::new(&settings, &model);
-    let colliders = Colliders { maps: None, sphere };
+    let colliders = Colliders { maps: None, shapes: sphere.into_iter().collect() };
     // To rest first, with a damping that the long run does not have.
     let damped = StepSettings { damping: 3.0, ..step.clone() };
     let mut settling = Reference::new(&model, &damped, colliders.clone());

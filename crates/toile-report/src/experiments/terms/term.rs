@@ -1,7 +1,7 @@
 //! The terms of the model that can be left out, and the number that each is there for.
 
 use crate::experiments::terms::{Outcome, Trial};
-use crate::fixtures::ball;
+use crate::fixtures::BALL_RADIUS;
 use glam::DVec3;
 use toile::model::NO_CORNER;
 
@@ -139,7 +139,7 @@ fn mean_angle(outcome: &Outcome) -> f64 {
 
 /// How deep the deepest midpoint of a quad lies below the surface that is the thickness above the sphere [m]; 0 for none.
 fn deepest_midpoint(outcome: &Outcome) -> f64 {
-    let radius = ball().radius + outcome.thickness;
+    let radius = BALL_RADIUS + outcome.thickness;
     let quads = outcome.quads.iter().filter(|quad| quad[3] != NO_CORNER);
     let middle = |quad: &[u32; 4]| quad.iter().map(|corner| outcome.positions[*corner as usize]).sum::<DVec3>() / 4.0;
     quads.map(|quad| radius - middle(quad).length()).fold(0.0, f64::max)

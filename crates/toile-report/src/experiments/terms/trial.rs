@@ -1,14 +1,14 @@
 //! A scene as it is, or with one term changed.
 
 use crate::experiments::terms::{Scene, Term};
-use crate::fixtures::{ball, fabric, hanging_sheet, square};
+use crate::fixtures::{BALL_RADIUS, ball, fabric, hanging_sheet, square};
 use crate::{Lab, LabError, Run};
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
 use toile::Colliders;
 use toile::gpu::{BodyMaps, Surface};
 use toile::model::{Csr, MapFrame, Model, StepSettings};
-use toile::scene::{Friction, Mesh, Rule, Settings, Sphere, SphereMotion, VelocityModification, Wind};
+use toile::scene::{Friction, Mesh, Rule, Settings, Shape, ShapeMotion, VelocityModification, Wind};
 
 /// Edge length of the texels of the moving sphere [m].
 const TEXEL: f32 = 0.01;
@@ -60,7 +60,7 @@ pub fn outcome(lab: &Lab, trial: Trial, n: u32, frames: u32) -> Result<Outcome, 
     };
     let colliders = Colliders {
         maps: moving.as_ref().map(|ball| ball.maps.clone()),
-        sphere: (trial.scene == Scene::Ball).then(ball),
+        shapes: (trial.scene == Scene::Ball).then(ball).into_iter().collect(),
     };
     let mut run = Run::new(lab, model, step, colliders)?;
     let mut elongation_max: f64 = 0.0;
@@ -118,7 +118,7 @@ fn change_model(trial: Trial, model: &mut Model) {
 
 /// A sphere that swings sideways, seen through maps that are drawn anew each frame.
 struct MovingBall {
-    sphere: Sphere,
+    sphere: Shape,
     maps: Arc<BodyMaps>,
     thickness: f32,
     size: [u32; 2],
@@ -127,10 +127,10 @@ struct MovingBall {
 
 impl MovingBall {
     fn new(lab: &Lab, step: &StepSettings, with_velocities: bool) -> Result<Self, LabError> {
-        let swing = SphereMotion::Swing { amplitude: DVec3::new(0.4, 0.0, 0.0), period: 4.0 };
-        let sphere = Sphere { motion: swing, ..ball() };
+        let swing = ShapeMotion::Swing { amplitude: DVec3::new(0.4, 0.0, 0.0), period: 4.0 };
+        let sphere = Shape { motion: swing, ..ball() };
         let thickness = step.thickness;
-        let size = MapFrame::size_for(Vec3::splat(2.0 * reach(&sphere, thickness)), TEXEL);
+        let size = MapFrame::size_for(Vec3::splat(2.0 * reach(thickness)), TEXEL);
         let frame = frame_at(&sphere, 0.0, thickness, size);
         let maps = Arc::new(BodyMaps::new(&lab.device, frame, with_velocities)?);
         Ok(Self { sphere, maps, thickness, size, with_velocities })
@@ -140,7 +140,7 @@ impl MovingBall {
     fn draw(&self, lab: &Lab, frame: u32) {
         let time = f64::from(frame) * INTERVAL;
         let [before, centre] = [time - INTERVAL, time].map(|time| self.sphere.at(time).0);
-        let mut mesh = Mesh::sphere(Vec3::ZERO, self.sphere.radius as f32, 24);
+        let mut mesh = Mesh::sphere(Vec3::ZERO, BALL_RADIUS as f32, 24);
         mesh.positions.iter_mut().for_each(|position| *position += centre.as_vec3());
         let mut surface = Surface::new(&lab.device, &mesh);
         if self.with_velocities {
@@ -154,11 +154,11 @@ impl MovingBall {
     }
 }
 
-fn reach(sphere: &Sphere, thickness: f32) -> f32 {
-    sphere.radius as f32 + thickness + 2.0 * TEXEL
+fn reach(thickness: f32) -> f32 {
+    BALL_RADIUS as f32 + thickness + 2.0 * TEXEL
 }
 
-fn frame_at(sphere: &Sphere, time: f64, thickness: f32, size: [u32; 2]) -> MapFrame {
-    let [centre, reach] = [sphere.at(time).0.as_vec3(), Vec3::splat(reach(sphere, thickness))];
+fn frame_at(sphere: &Shape, time: f64, thickness: f32, size: [u32; 2]) -> MapFrame {
+    let [centre, reach] = [sphere.at(time).0.as_vec3(), Vec3::splat(reach(thickness))];
     MapFrame::moving([centre - reach, centre + reach], TEXEL, size)
 }

@@ -61,7 +61,7 @@ pub fn drape(seed: u64, fabric: Fabric, spacing: f64, seconds: f64) -> Result<Dr
     let step = StepSettings::new(&settings, &model);
     let disc = cylinder(SUPPORT as f32, 0.3, 64);
     let maps = render_maps(&[Surface { mesh: &disc, thickness, velocities: None }], settings.texel as f32);
-    let colliders = Colliders { maps: Some(maps), sphere: None };
+    let colliders = Colliders { maps: Some(maps), shapes: Vec::new() };
     let frames = (seconds * settings.frame_rate).round() as u32;
     let end = settled(&model, &step, colliders, frames);
     let [support, whole] = [SUPPORT, SAMPLE].map(|radius| PI * radius * radius);

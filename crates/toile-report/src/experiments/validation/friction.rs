@@ -44,7 +44,7 @@ pub fn slide(lab: &Lab, degrees: f64, friction: Friction) -> Result<Slide, LabEr
         pins: Vec::new(),
     };
     let layers = Layers::draw(&lab.gpu(), &[(&mesh, thickness as f32)], settings.texel as f32)?;
-    let colliders = Colliders { maps: Some(layers.maps), sphere: None };
+    let colliders = Colliders { maps: Some(layers.maps), shapes: Vec::new() };
     let mut run = Run::sheet(lab, &sheet, &settings, colliders)?;
     for _ in 0..(SECONDS * settings.frame_rate).round() as u32 {
         run.frame(lab)?;

@@ -1,0 +1,144 @@
+//! What the kernels read, as bytes on the device: each type of the model has its encoding here, once.
+
+use crate::step_params;
+use encase::{ShaderType, StorageBuffer, UniformBuffer, internal::WriteInto};
+use glam::{Vec3, Vec4};
+use toile_kernels::structs;
+use toile_model::{Attachment, Hold, Limit, Link, MapFrame, Model, SeamPair, ShapeStep, StepSettings, Strand};
+use toile_scene::{Displacement, Influence, Polish};
+
+/// Bytes of the buffer of a name that a model and the settings of its step decide; `None` for the others. `after_maps` when shapes are
+/// sampled after maps.
+pub fn constant(name: &str, model: &Model, settings: &StepSettings, after_maps: bool) -> Option<Vec<u8>> {
+    Some(match name {
+        "step" => uniform(&step_params(model, settings, after_maps)),
+        "polish" => {
+            let Polish { target, sweeps } = settings.polish?;
+            uniform(&structs::Polish { target_elongation: target as f32, sweeps })
+        }
+        "positions" => with_w(&model.positions, &model.inverse_masses),
+        "velocities" => with_w(&vec![Vec3::ZERO; model.masses.len()], &model.masses),
+        "link_offsets" => words(&model.links.offsets),
+        "link_others" => words(&model.links.values.iter().map(|link| link.other).collect::<Vec<_>>()),
+        "link_springs" => encoded(&model.links.values),
+        "limits" => encoded(&model.limits),
+        "strands" => encoded(&model.strands),
+        "strand_particles" => words(&model.strand_particles),
+        "strand_lengths" => floats(&model.strand_lengths),
+        "attachment_offsets" => words(&model.attachments.offsets),
+        "attachments" => encoded(&model.attachments.values),
+        "seam_pairs" => encoded(&model.seam_pairs),
+        "holds" => encoded(&model.holds),
+        "held_particles" => words(&model.held_particles),
+        "quads" => bytemuck::cast_slice(&model.quads).to_vec(),
+        "particle_quad_offsets" => words(&model.particle_quads.offsets),
+        "particle_quads" => words(&model.particle_quads.values),
+        _ => return None,
+    })
+}
+
+/// Something that the kernels read, and the struct that they have for it.
+pub trait Encode {
+    /// The struct.
+    type Struct: ShaderType + WriteInto;
+
+    /// The same as the struct.
+    fn encode(&self) -> Self::Struct;
+}
+
+/// Items as a storage buffer holds them.
+pub fn encoded<T: Encode>(items: &[T]) -> Vec<u8>
+where
+    Vec<T::Struct>: ShaderType + WriteInto,
+{
+    let mut buffer = StorageBuffer::new(Vec::new());
+    buffer.write(&items.iter().map(Encode::encode).collect::<Vec<_>>()).expect("a vector grows to what is written");
+    buffer.into_inner()
+}
+
+/// A struct as a uniform buffer holds it.
+pub fn uniform<T: ShaderType + WriteInto>(value: &T) -> Vec<u8> {
+    let mut buffer = UniformBuffer::new(Vec::new());
+    buffer.write(value).expect("a vector grows to what is written");
+    buffer.into_inner()
+}
+
+/// Vectors, each with its fourth word.
+pub fn with_w(xyz: &[Vec3], w: &[f32]) -> Vec<u8> {
+    let packed: Vec<Vec4> = xyz.iter().zip(w).map(|(xyz, w)| xyz.extend(*w)).collect();
+    bytemuck::cast_slice(&packed).to_vec()
+}
+
+/// Words, one after the other.
+pub fn words(values: &[u32]) -> Vec<u8> {
+    bytemuck::cast_slice(values).to_vec()
+}
+
+/// Floats, one after the other.
+pub fn floats(values: &[f32]) -> Vec<u8> {
+    bytemuck::cast_slice(values).to_vec()
+}
+
+/// How long before the time of the maps a step begins and ends after which `left` more follow.
+pub(crate) fn lag(left: u32, settings: &StepSettings) -> Vec<u8> {
+    let after = |steps: u32| steps as f32 * settings.dt;
+    uniform(&structs::Lag { start: after(left + 1), end: after(left) })
+}
+
+macro_rules! encode {
+    ($(|$of:ident: $item:ident| $name:ident $fields:tt)*) => {
+        $(impl Encode for $item {
+            type Struct = structs::$name;
+
+            fn encode(&self) -> structs::$name {
+                let $of = self;
+                structs::$name $fields
+            }
+        })*
+    };
+}
+
+encode! {
+    |link: Link| LinkSpring { rest_length: link.rest_length, stiffness: link.stiffness }
+    |limit: Limit| Limit {
+        first: limit.ends[0],
+        second: limit.ends[1],
+        rest_length: limit.rest_length,
+        max_length: limit.max_length,
+    }
+    |strand: Strand| Strand {
+        first: strand.particles.start,
+        count: strand.particles.end - strand.particles.start,
+        lengths: strand.lengths,
+        level_count: strand.level_count,
+    }
+    |attachment: Attachment| Attachment { pin: attachment.pin, max_length: attachment.max_length }
+    |pair: SeamPair| SeamPair { first: pair.ends[0], second: pair.ends[1], closing_speed: pair.closing_speed }
+    |hold: Hold| Hold {
+        first: hold.particles.start,
+        count: hold.particles.end - hold.particles.start,
+        height: hold.height,
+    }
+    |shape: ShapeStep| Shape {
+        centre: shape.centre,
+        radius: shape.radius,
+        velocity: shape.velocity,
+        kind: shape.kind as u32,
+        spin: shape.spin,
+    }
+    |frame: MapFrame| MapFrame {
+        origin_x: frame.origin_x,
+        origin_y: frame.origin_y,
+        texel: frame.texel,
+        z_front: frame.z_front,
+        z_back: frame.z_back,
+        columns: frame.columns,
+        rows: frame.rows,
+    }
+    |influence: Influence| Influence { joint: influence.joint, weight: influence.weight }
+    |displacement: Displacement| Displacement {
+        position: displacement.position,
+        morph: displacement.target,
+        normal: displacement.normal,
+    }
+}

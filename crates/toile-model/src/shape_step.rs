@@ -1,0 +1,45 @@
+//! A shape as one step meets it.
+
+use crate::StepSettings;
+use glam::Vec3;
+use toile_scene::{Form, Shape};
+
+/// A shape as one step meets it: where it stands at the start, going straight on to the end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShapeStep {
+    /// What it is.
+    pub kind: ShapeKind,
+    /// Centre at the start of the step [m].
+    pub centre: Vec3,
+    /// Radius with the thickness of the cloth added [m].
+    pub radius: f32,
+    /// Velocity of the centre over the step [m/s].
+    pub velocity: Vec3,
+    /// Angular velocity [rad/s].
+    pub spin: Vec3,
+}
+
+/// What a shape is; its number is that in the kernels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ShapeKind {
+    /// A sphere.
+    Sphere = 0,
+}
+
+impl ShapeStep {
+    /// A shape during step `step`; 0 is the first.
+    pub fn of(shape: &Shape, step: u64, settings: &StepSettings) -> Self {
+        let dt = f64::from(settings.dt);
+        let [start, end] = [step, step + 1].map(|step| shape.at(step as f64 * dt).0);
+        let (kind, radius) = match shape.form {
+            Form::Sphere { radius } => (ShapeKind::Sphere, radius),
+        };
+        Self {
+            kind,
+            centre: start.as_vec3(),
+            radius: radius as f32 + settings.thickness,
+            velocity: ((end - start) / dt).as_vec3(),
+            spin: shape.spin(step as f64 * dt).as_vec3(),
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! Points against the analytic shapes.
+
+use crate::Probe;
+use glam::{Vec3, Vec3Swizzles};
+use std::cmp::Ordering;
+use toile_model::{ShapeStep, StepSettings};
+
+/// Writes the nearest of the shapes that a point reaches within this step into its probe, where the probe has no surface yet or a
+/// farther one. A point whose way, seen from a shape, would enter it meets it where it does. All arrays but `shapes` have the shape
+/// [point_count].
+pub fn sample_shapes(
+    probes: &mut [Probe],
+    positions: &[Vec3],
+    velocities: &[Vec3],
+    shapes: &[ShapeStep],
+    settings: &StepSettings,
+) {
+    for ((probe, &position), &velocity) in probes.iter_mut().zip(positions).zip(velocities) {
+        let seen = shapes.iter().filter_map(|shape| look_at(shape, position, velocity, settings));
+        let reached = seen.filter(|seen| {
+            seen.distance + (velocity - seen.velocity).dot(seen.normal) * settings.dt < settings.contact_margin
+        });
+        let nearest = reached.reduce(|first, next| if order(&next, &first).is_lt() { next } else { first });
+        if let Some(nearest) = nearest.filter(|nearest| !probe.hit || nearest.distance < probe.distance) {
+            *probe = nearest;
+        }
+    }
+}
+
+/// The plane that a point sees of a shape; none in its very middle, where no direction leads out.
+fn look_at(shape: &ShapeStep, position: Vec3, velocity: Vec3, settings: &StepSettings) -> Option<Probe> {
+    let radial = position - shape.centre;
+    let way = (velocity - shape.velocity) * settings.dt;
+    let entry = if settings.swept { sphere_entry(radial, way, shape.radius) } else { None };
+    plane(shape, radial, entry.map_or(radial, |share| radial + way * share))
+}
+
+/// The plane that touches a shape under the place `met`: its distance from `radial`, all relative to the centre of the shape [m].
+fn plane(shape: &ShapeStep, radial: Vec3, met: Vec3) -> Option<Probe> {
+    let length = met.length();
+    (length > 0.0).then(|| {
+        let normal = met / length;
+        // The cross product of spin and radius, added term by term: the order is part of the answer.
+        let velocity = (shape.velocity + shape.spin.yzx() * met.zxy()) - shape.spin.zxy() * met.yzx();
+        Probe { normal, distance: normal.dot(radial) - shape.radius, velocity, hit: true }
+    })
+}
+
+/// The nearer first; of two that are equally near the one whose normal, then whose velocity is larger in the first coordinate that differs.
+fn order(one: &Probe, other: &Probe) -> Ordering {
+    let larger = |one: Vec3, other: Vec3| other.to_array().partial_cmp(&one.to_array()).unwrap_or(Ordering::Equal);
+    let nearer = one.distance.partial_cmp(&other.distance).unwrap_or(Ordering::Equal);
+    nearer.then(larger(one.normal, other.normal)).then(larger(one.velocity, other.velocity))
+}
+
+/// After which part of its way a place outside of a sphere around the origin first meets it: the smaller root of
+/// |start + share·way|² = radius²; `None` when it does not come so far.
+fn sphere_entry(start: Vec3, way: Vec3, radius: f32) -> Option<f32> {
+    let outside = start.dot(start) - radius * radius;
+    let closing = start.dot(way);
+    let way_squared = way.dot(way);
+    let discriminant = closing * closing - way_squared * outside;
+    if outside > 0.0 && closing < 0.0 && discriminant > 0.0 {
+        return Some((-closing - discriminant.sqrt()) / way_squared).filter(|share| *share < 1.0);
+    }
+    None
+}

@@ -1,0 +1,130 @@
+//! Shapes that the cloth meets exactly, without maps.
+
+use crate::{Mesh, RigidMotion};
+use glam::DVec3;
+
+/// Parallels of a sphere in pictures and files.
+const SPHERE_PARALLELS: u32 = 48;
+
+/// An analytic shape.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shape {
+    /// What it is.
+    pub form: Form,
+    /// Centre [m] before it moves.
+    pub centre: DVec3,
+    /// How it moves.
+    pub motion: ShapeMotion,
+}
+
+/// What a shape is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Form {
+    /// A sphere.
+    Sphere {
+        /// Radius [m], positive.
+        radius: f64,
+    },
+}
+
+/// How a shape moves.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ShapeMotion {
+    /// Not at all.
+    Still,
+    /// There and back: centre + amplitude·(1 − cos(2π·time/period))/2, which starts at rest.
+    Swing {
+        /// Farthest displacement from the centre at time 0 [m].
+        amplitude: DVec3,
+        /// Time of one swing there and back [s], positive.
+        period: f64,
+    },
+    /// By keys: the centre is displaced by their translation, and the shape turns about its centre by their rotation.
+    Keys(RigidMotion),
+}
+
+impl Shape {
+    /// A sphere at rest: its centre and its radius [m].
+    pub fn sphere(centre: DVec3, radius: f64) -> Self {
+        Self { form: Form::Sphere { radius }, centre, motion: ShapeMotion::Still }
+    }
+
+    /// Whether it never moves.
+    pub fn is_still(&self) -> bool {
+        self.motion == ShapeMotion::Still
+    }
+
+    /// Centre [m] and velocity [m/s] at a time [s].
+    pub fn at(&self, time: f64) -> (DVec3, DVec3) {
+        match &self.motion {
+            ShapeMotion::Still => (self.centre, DVec3::ZERO),
+            ShapeMotion::Swing { amplitude, period } => {
+                let rate = std::f64::consts::TAU / period;
+                let (sin, cos) = (rate * time).sin_cos();
+                (self.centre + *amplitude * (0.5 * (1.0 - cos)), *amplitude * (0.5 * rate * sin))
+            }
+            ShapeMotion::Keys(keys) => (self.centre + keys.at(time).0, keys.velocity(time).0),
+        }
+    }
+
+    /// Angular velocity [rad/s] at a time [s].
+    pub fn spin(&self, time: f64) -> DVec3 {
+        match &self.motion {
+            ShapeMotion::Still | ShapeMotion::Swing { .. } => DVec3::ZERO,
+            ShapeMotion::Keys(keys) => keys.velocity(time).1,
+        }
+    }
+
+    /// How deep a point [m] is inside at a time [s], negative outside [m].
+    pub fn depth(&self, point: DVec3, time: f64) -> f64 {
+        let from_centre = point - self.at(time).0;
+        match self.form {
+            Form::Sphere { radius } => radius - from_centre.length(),
+        }
+    }
+
+    /// Its surface at a time [s] as a mesh, to look at.
+    pub fn mesh(&self, time: f64) -> Mesh {
+        let centre = self.at(time).0.as_vec3();
+        match self.form {
+            Form::Sphere { radius } => Mesh::sphere(centre, radius as f32, SPHERE_PARALLELS),
+        }
+    }
+
+    /// The word that scenes have for its form.
+    pub fn name(&self) -> &'static str {
+        match self.form {
+            Form::Sphere { .. } => "sphere",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Shape, ShapeMotion};
+    use crate::{RigidKey, RigidMotion};
+    use glam::{DQuat, DVec3, dvec3};
+
+    #[test]
+    fn every_motion_has_its_derivative() {
+        let key = |time, x, angle| RigidKey {
+            time,
+            translation: dvec3(x, 0.5, 0.0),
+            rotation: DQuat::from_rotation_z(angle),
+        };
+        let keys = RigidMotion { keys: vec![key(0.0, 0.0, 0.0), key(2.0, 1.0, -3.0)] };
+        for motion in [
+            ShapeMotion::Still,
+            ShapeMotion::Swing { amplitude: dvec3(0.3, -0.1, 0.0), period: 1.3 },
+            ShapeMotion::Keys(keys),
+        ] {
+            let turns = matches!(motion, ShapeMotion::Keys(_));
+            let shape = Shape { motion, ..Shape::sphere(dvec3(1.0, 2.0, 3.0), 0.1) };
+            let step = 1e-6;
+            let [(before, _), (_, velocity), (after, _)] = [0.7 - step, 0.7, 0.7 + step].map(|time| shape.at(time));
+            assert!(((after - before) / (2.0 * step)).distance(velocity) < 1e-7, "{shape:?}");
+            let spin = if turns { dvec3(0.0, 0.0, -1.5) } else { DVec3::ZERO };
+            assert!(shape.spin(0.7).distance(spin) < 1e-12);
+        }
+    }
+}

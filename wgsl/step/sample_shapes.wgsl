@@ -1,0 +1,105 @@
+// What each point sees of the analytic shapes, exactly: the nearest of them answers, where it is nearer than what the point sees in the
+// maps. The whole way of the coming move is tested, relative to the shape: a point that would enter meets it where its way does.
+#import shared/point
+
+// A shape at the start of the step, going straight on to its end.
+struct Shape {
+    centre: vec3<f32>,      // [m]
+    radius: f32,            // with the thickness of the cloth [m]
+    velocity: vec3<f32>,    // [m/s]
+    kind: u32,
+    spin: vec3<f32>,        // angular velocity [rad/s]
+}
+
+@group(0) @binding(6) var<storage, read> shapes: array<Shape>;
+
+// More than all of a way.
+const NEVER: f32 = 2.0;
+
+// After which part of its way a place outside of a sphere around the origin first meets it.
+fn sphere_entry(start: vec3<f32>, way: vec3<f32>, radius: f32) -> f32 {
+    let outside = dot(start, start) - radius * radius;
+    let closing = dot(start, way);
+    let way_squared = dot(way, way);
+    let discriminant = closing * closing - way_squared * outside;
+    if outside > 0.0 && closing < 0.0 && discriminant > 0.0 {
+        return (-closing - sqrt(discriminant)) / way_squared;
+    }
+    return NEVER;
+}
+
+// Where a place meets a shape after this part of its way; the place itself when it does not.
+fn met_at(start: vec3<f32>, way: vec3<f32>, share: f32) -> vec3<f32> {
+    if step.swept == 1u && share < 1.0 {
+        return start + way * share;
+    }
+    return start;
+}
+
+// The plane that touches a shape where it is met; none where no direction leads out.
+fn plane_of(shape: Shape, from_centre: vec3<f32>, met: vec3<f32>) -> Probe {
+    let met_length = length(met);
+    if !(met_length > 0.0) {
+        return Probe();
+    }
+    let normal = met / met_length;
+    let distance = dot(normal, from_centre) - shape.radius;
+    let surface_velocity = (shape.velocity + shape.spin.yzx * met.zxy) - shape.spin.zxy * met.yzx;
+    return Probe(normal, distance, surface_velocity, 1.0);
+}
+
+fn look_at(shape: Shape, point: Midpoint) -> Probe {
+    let from_centre = point.position - shape.centre;
+    let way = (point.velocity - shape.velocity) * step.dt;
+    let met = met_at(from_centre, way, sphere_entry(from_centre, way, shape.radius));
+    return plane_of(shape, from_centre, met);
+}
+
+// The first component that is not zero.
+fn leading(way: vec3<f32>) -> f32 {
+    if way.x != 0.0 {
+        return way.x;
+    }
+    if way.y != 0.0 {
+        return way.y;
+    }
+    return way.z;
+}
+
+// Which of two shapes answers: of two that are equally near the one whose normal, then whose velocity comes later by coordinates, so
+// that the order of the shapes does not matter.
+fn answers_before(one: Probe, other: Probe) -> bool {
+    if one.distance != other.distance {
+        return one.distance < other.distance;
+    }
+    let turn = leading(one.normal - other.normal);
+    if turn != 0.0 {
+        return turn > 0.0;
+    }
+    return leading(one.velocity - other.velocity) > 0.0;
+}
+
+@compute @workgroup_size(64)
+fn sample_shapes(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
+    let i = item_index(id, groups);
+    if i >= step.particle_count + step.quad_count {
+        return;
+    }
+    let point = point_at(i);
+    var nearest = Probe();
+    for (var k = 0u; k < arrayLength(&shapes); k++) {
+        let seen = look_at(shapes[k], point);
+        let approach = dot(point.velocity - seen.velocity, seen.normal);
+        let near = seen.hit > 0.0 && seen.distance + approach * step.dt < step.contact_margin;
+        if near && (!(nearest.hit > 0.0) || answers_before(seen, nearest)) {
+            nearest = seen;
+        }
+    }
+    if step.after_maps == 1u {
+        let seen = probes[i];
+        if !(nearest.hit > 0.0) || (seen.hit > 0.0 && !(nearest.distance < seen.distance)) {
+            nearest = seen;
+        }
+    }
+    probes[i] = nearest;
+}
