@@ -9,6 +9,7 @@ struct Shape {
     velocity: vec3<f32>,    // [m/s]
     kind: u32,
     spin: vec3<f32>,        // angular velocity [rad/s]
+    axis: vec3<f32>,        // of a shape with a direction [m]
 }
 
 @group(0) @binding(6) var<storage, read> shapes: array<Shape>;

@@ -73,9 +73,7 @@ fn convert(toml: SceneToml, stem: &str, folder: &Path) -> Result<SceneFile, Prob
         bodies.push(body);
         warnings.extend(new_warnings);
     }
-    for (index, sphere) in toml.sphere.iter().enumerate() {
-        bodies.push(Body::Shape(scene_body::convert_sphere(index, sphere)?));
-    }
+    bodies.extend(scene_body::convert_shapes(&toml)?.into_iter().map(Body::Shape));
     let frames = toml.frames.unwrap_or(FRAMES);
     if frames == 0 {
         return Err(wrong("frames", "it must be at least 1").into());

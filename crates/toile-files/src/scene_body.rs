@@ -7,7 +7,7 @@ use crate::gltf_rig::DURATION_MAX;
 use crate::mesh_sequence::read_mesh_sequence;
 use crate::moving_body::read_moving_body;
 use crate::scene::{SIZES, vector, within, wrong};
-use crate::scene_toml::{BodyToml, KeyToml, SphereToml, SwingToml, UnitsToml};
+use crate::scene_toml::{BodyToml, KeyToml, SceneToml, SphereToml, SwingToml, UnitsToml};
 use glam::{DQuat, DVec3};
 use std::path::Path;
 use toile_scene::{Body, MovingMesh, RigidKey, RigidMotion, Settings, Shape, ShapeMotion};
@@ -65,8 +65,13 @@ pub(crate) fn convert_body(index: usize, toml: &BodyToml, folder: &Path) -> Resu
     Ok((body, warnings.iter().map(|warning| format!("{name}: {warning}")).collect()))
 }
 
+/// Converts the shapes of a scene.
+pub(crate) fn convert_shapes(toml: &SceneToml) -> Result<Vec<Shape>, Found> {
+    toml.sphere.iter().enumerate().map(|(index, sphere)| convert_sphere(index, sphere)).collect()
+}
+
 /// Converts a sphere of a scene.
-pub(crate) fn convert_sphere(index: usize, toml: &SphereToml) -> Result<Shape, Found> {
+fn convert_sphere(index: usize, toml: &SphereToml) -> Result<Shape, Found> {
     let key = |name: &str| format!("sphere.{index}.{name}");
     let motion = convert_motion(&key, &toml.swing, &toml.keys)?;
     let radius = within(&key("radius"), toml.radius, SIZES, "m")?;

@@ -125,6 +125,7 @@ encode! {
         velocity: shape.velocity,
         kind: shape.kind as u32,
         spin: shape.spin,
+        axis: shape.axis,
     }
     |frame: MapFrame| MapFrame {
         origin_x: frame.origin_x,

@@ -205,10 +205,12 @@ pub struct Shape {
     pub radius: f32,
     /// Velocity [m/s].
     pub velocity: Vec3,
-    /// 0 sphere.
+    /// What it is: the number of a `ShapeKind` of the model.
     pub kind: u32,
     /// Angular velocity [rad/s].
     pub spin: Vec3,
+    /// Of a shape with a direction [m]; zero of a sphere.
+    pub axis: Vec3,
 }
 
 /// How long before the time of the maps a step begins and ends. `wgsl/step/sample_moving_maps.wgsl`.

@@ -17,6 +17,8 @@ pub struct ShapeStep {
     pub velocity: Vec3,
     /// Angular velocity [rad/s].
     pub spin: Vec3,
+    /// Of a shape with a direction [m]; zero of a sphere.
+    pub axis: Vec3,
 }
 
 /// What a shape is; its number is that in the kernels.
@@ -40,6 +42,7 @@ impl ShapeStep {
             radius: radius as f32 + settings.thickness,
             velocity: ((end - start) / dt).as_vec3(),
             spin: shape.spin(step as f64 * dt).as_vec3(),
+            axis: Vec3::ZERO,
         }
     }
 }

@@ -166,6 +166,7 @@ fn shapes() -> Vec<ShapeStep> {
         radius: 0.35,
         velocity: vec3(0.5, 0.0, 0.2),
         spin: vec3(0.3, -1.0, 2.0),
+        axis: Vec3::ZERO,
     };
     let mirrored = [-1.0, 1.0].map(|side| ShapeStep {
         centre: vec3(MIRROR.x + side * 0.125, MIRROR.y, MIRROR.z),
@@ -547,7 +548,16 @@ fn place_at_the_edges(random: &mut Random, input: &mut Input) {
             // Just at a shape.
             17 | 24 => {
                 let shape = input.shapes[random.below(input.shapes.len() as u32) as usize];
-                *position = shape.centre + random.direction() * (shape.radius + random.between(-0.01, 0.01));
+                let core = shape.centre + shape.axis * random.between(-1.2, 1.2).clamp(-1.0, 1.0);
+                *position = core + random.direction() * (shape.radius + random.between(-0.01, 0.01));
+            }
+            // Through the ends and the sides of one within the step.
+            27 | 28 => {
+                let shape = input.shapes[random.below(input.shapes.len() as u32) as usize];
+                let core = |random: &mut Random| shape.centre + shape.axis * random.between(-1.3, 1.3);
+                *position = core(random) + random.direction() * (shape.radius * random.between(1.1, 2.5));
+                *velocity =
+                    shape.velocity + (core(random) - *position) * (random.between(0.5, 2.0) / input.settings.dt);
             }
             // As near to two of them.
             9 => *position = vec3(MIRROR.x, MIRROR.y, MIRROR.z + random.between(-0.1, 0.1)),
