@@ -412,6 +412,15 @@ fn shapes(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usiz
         "is at two shapes that move differently",
         all().filter(|i| reached(i) && !differ(i, |probe| probe.normal) && differ(i, |probe| probe.velocity)).count(),
     );
+    let capsule = before.shapes.iter().position(|shape| shape.kind == ShapeKind::Capsule).expect("there is one");
+    let by_capsule = |i: &usize| reached(i) && same(&after.probes[*i], &alone[capsule][*i]);
+    let along = |i: &usize| {
+        let shape = &before.shapes[capsule];
+        (points[*i] - shape.centre).dot(shape.axis) / shape.axis.length_squared()
+    };
+    see("is reached by the side of a capsule", all().filter(|i| by_capsule(i) && along(i).abs() < 1.0).count());
+    see("is reached by an end of a capsule", all().filter(|i| by_capsule(i) && along(i) > 1.0).count());
+    see("is reached by its other end", all().filter(|i| by_capsule(i) && along(i) < -1.0).count());
     for order in
         [before.shapes.iter().rev().copied().collect::<Vec<_>>(), [&before.shapes[2..], &before.shapes[..2]].concat()]
     {

@@ -12,6 +12,8 @@ struct Shape {
     axis: vec3<f32>,        // of a shape with a direction [m]
 }
 
+const CAPSULE: u32 = 1u;
+
 @group(0) @binding(6) var<storage, read> shapes: array<Shape>;
 
 // More than all of a way.
@@ -37,23 +39,58 @@ fn met_at(start: vec3<f32>, way: vec3<f32>, share: f32) -> vec3<f32> {
     return start;
 }
 
-// The plane that touches a shape where it is met; none where no direction leads out.
-fn plane_of(shape: Shape, from_centre: vec3<f32>, met: vec3<f32>) -> Probe {
-    let met_length = length(met);
-    if !(met_length > 0.0) {
+// The plane that touches a shape where it is met, as far from its core as the radius; none where no direction leads out of the core.
+fn plane_of(shape: Shape, from_centre: vec3<f32>, met: vec3<f32>, core: vec3<f32>) -> Probe {
+    let outward = met - core;
+    let outward_length = length(outward);
+    if !(outward_length > 0.0) {
         return Probe();
     }
-    let normal = met / met_length;
-    let distance = dot(normal, from_centre) - shape.radius;
+    let normal = outward / outward_length;
+    let distance = dot(normal, from_centre - core) - shape.radius;
     let surface_velocity = (shape.velocity + shape.spin.yzx * met.zxy) - shape.spin.zxy * met.yzx;
     return Probe(normal, distance, surface_velocity, 1.0);
 }
 
+// The same of a capsule. It lies within an endless cylinder: where the way enters that beyond an end, or begins there, only the sphere
+// around that end can be met.
+fn capsule_entry(shape: Shape, start: vec3<f32>, way: vec3<f32>) -> f32 {
+    let axis_squared = dot(shape.axis, shape.axis);
+    var along = dot(start, shape.axis) / axis_squared;
+    let start_across = start - shape.axis * along;
+    if dot(start_across, start_across) > shape.radius * shape.radius {
+        let way_across = way - shape.axis * (dot(way, shape.axis) / axis_squared);
+        let share = sphere_entry(start_across, way_across, shape.radius);
+        if !(share < 1.0) {
+            return NEVER;
+        }
+        along = dot(start + way * share, shape.axis) / axis_squared;
+        if abs(along) <= 1.0 {
+            return share;
+        }
+    } else if abs(along) <= 1.0 {
+        return NEVER;
+    }
+    return sphere_entry(start - shape.axis * sign(along), way, shape.radius);
+}
+
+fn capsule_probe(shape: Shape, from_centre: vec3<f32>, velocity: vec3<f32>) -> Probe {
+    // A place that turns with the capsule goes on, seen from it, as if it stood still.
+    let turning = shape.spin.yzx * from_centre.zxy - shape.spin.zxy * from_centre.yzx;
+    let way = ((velocity - shape.velocity) - turning) * step.dt;
+    let met = met_at(from_centre, way, capsule_entry(shape, from_centre, way));
+    let along = dot(met, shape.axis) / dot(shape.axis, shape.axis);
+    return plane_of(shape, from_centre, met, shape.axis * clamp(along, -1.0, 1.0));
+}
+
 fn look_at(shape: Shape, point: Midpoint) -> Probe {
     let from_centre = point.position - shape.centre;
+    if shape.kind == CAPSULE {
+        return capsule_probe(shape, from_centre, point.velocity);
+    }
     let way = (point.velocity - shape.velocity) * step.dt;
     let met = met_at(from_centre, way, sphere_entry(from_centre, way, shape.radius));
-    return plane_of(shape, from_centre, met);
+    return plane_of(shape, from_centre, met, vec3<f32>(0.0));
 }
 
 // The first component that is not zero.

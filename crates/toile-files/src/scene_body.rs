@@ -7,7 +7,7 @@ use crate::gltf_rig::DURATION_MAX;
 use crate::mesh_sequence::read_mesh_sequence;
 use crate::moving_body::read_moving_body;
 use crate::scene::{SIZES, vector, within, wrong};
-use crate::scene_toml::{BodyToml, KeyToml, SceneToml, SphereToml, SwingToml, UnitsToml};
+use crate::scene_toml::{BodyToml, CapsuleToml, KeyToml, SceneToml, SphereToml, SwingToml, UnitsToml};
 use glam::{DQuat, DVec3};
 use std::path::Path;
 use toile_scene::{Body, MovingMesh, RigidKey, RigidMotion, Settings, Shape, ShapeMotion};
@@ -67,7 +67,9 @@ pub(crate) fn convert_body(index: usize, toml: &BodyToml, folder: &Path) -> Resu
 
 /// Converts the shapes of a scene.
 pub(crate) fn convert_shapes(toml: &SceneToml) -> Result<Vec<Shape>, Found> {
-    toml.sphere.iter().enumerate().map(|(index, sphere)| convert_sphere(index, sphere)).collect()
+    let spheres = toml.sphere.iter().enumerate().map(|(index, sphere)| convert_sphere(index, sphere));
+    let capsules = toml.capsule.iter().enumerate().map(|(index, capsule)| convert_capsule(index, capsule));
+    spheres.chain(capsules).collect()
 }
 
 /// Converts a sphere of a scene.
@@ -76,6 +78,19 @@ fn convert_sphere(index: usize, toml: &SphereToml) -> Result<Shape, Found> {
     let motion = convert_motion(&key, &toml.swing, &toml.keys)?;
     let radius = within(&key("radius"), toml.radius, SIZES, "m")?;
     Ok(Shape { motion, ..Shape::sphere(vector(&key("centre"), toml.centre)?, radius) })
+}
+
+/// Converts a capsule of a scene.
+fn convert_capsule(index: usize, toml: &CapsuleToml) -> Result<Shape, Found> {
+    let key = |name: &str| format!("capsule.{index}.{name}");
+    let motion = convert_motion(&key, &toml.swing, &toml.keys)?;
+    let radius = within(&key("radius"), toml.radius, SIZES, "m")?;
+    let ends = [vector(&key("ends.0"), toml.ends[0])?, vector(&key("ends.1"), toml.ends[1])?];
+    if !SIZES.contains(&ends[0].distance(ends[1])) {
+        let range = format!("{} to {} m", SIZES.start(), SIZES.end());
+        return Err(wrong(&key("ends"), format!("they must be {range} apart; a sphere has one centre")));
+    }
+    Ok(Shape { motion, ..Shape::capsule(ends, radius) })
 }
 
 /// Converts the motion of a shape, whose keys `key` names.

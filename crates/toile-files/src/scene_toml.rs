@@ -30,6 +30,8 @@ pub(crate) struct SceneToml {
     pub body: Vec<BodyToml>,
     #[serde(default)]
     pub sphere: Vec<SphereToml>,
+    #[serde(default)]
+    pub capsule: Vec<CapsuleToml>,
 }
 
 #[derive(Clone, Copy, Deserialize)]
@@ -208,6 +210,16 @@ pub(crate) enum UnitsToml {
 #[serde(deny_unknown_fields)]
 pub(crate) struct SphereToml {
     pub centre: [f64; 3],
+    pub radius: f64,
+    pub swing: Option<SwingToml>,
+    pub keys: Option<Vec<KeyToml>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CapsuleToml {
+    /// The ends of its line.
+    pub ends: [[f64; 3]; 2],
     pub radius: f64,
     pub swing: Option<SwingToml>,
     pub keys: Option<Vec<KeyToml>>,

@@ -1,7 +1,7 @@
 //! A shape as one step meets it.
 
 use crate::StepSettings;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use toile_scene::{Form, Shape};
 
 /// A shape as one step meets it: where it stands at the start, going straight on to the end.
@@ -17,7 +17,7 @@ pub struct ShapeStep {
     pub velocity: Vec3,
     /// Angular velocity [rad/s].
     pub spin: Vec3,
-    /// Of a shape with a direction [m]; zero of a sphere.
+    /// Of a capsule from the centre to one of its ends at the start of the step [m]; zero of a sphere.
     pub axis: Vec3,
 }
 
@@ -26,6 +26,8 @@ pub struct ShapeStep {
 pub enum ShapeKind {
     /// A sphere.
     Sphere = 0,
+    /// A capsule.
+    Capsule = 1,
 }
 
 impl ShapeStep {
@@ -33,16 +35,17 @@ impl ShapeStep {
     pub fn of(shape: &Shape, step: u64, settings: &StepSettings) -> Self {
         let dt = f64::from(settings.dt);
         let [start, end] = [step, step + 1].map(|step| shape.at(step as f64 * dt).0);
-        let (kind, radius) = match shape.form {
-            Form::Sphere { radius } => (ShapeKind::Sphere, radius),
+        let (kind, radius, axis) = match shape.form {
+            Form::Sphere { radius } => (ShapeKind::Sphere, radius, DVec3::ZERO),
+            Form::Capsule { half_axis, radius } => (ShapeKind::Capsule, radius, half_axis),
         };
         Self {
             kind,
             centre: start.as_vec3(),
             radius: radius as f32 + settings.thickness,
             velocity: ((end - start) / dt).as_vec3(),
+            axis: (shape.turn(step as f64 * dt) * axis).as_vec3(),
             spin: shape.spin(step as f64 * dt).as_vec3(),
-            axis: Vec3::ZERO,
         }
     }
 }

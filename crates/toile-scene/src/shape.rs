@@ -1,7 +1,7 @@
 //! Shapes that the cloth meets exactly, without maps.
 
 use crate::{Mesh, RigidMotion};
-use glam::DVec3;
+use glam::{DQuat, DVec3, Quat, Vec3};
 
 /// Parallels of a sphere in pictures and files.
 const SPHERE_PARALLELS: u32 = 48;
@@ -22,6 +22,13 @@ pub struct Shape {
 pub enum Form {
     /// A sphere.
     Sphere {
+        /// Radius [m], positive.
+        radius: f64,
+    },
+    /// All that lies within a radius of a straight line between two ends.
+    Capsule {
+        /// From the centre to one of the ends [m], before it turns; not zero.
+        half_axis: DVec3,
         /// Radius [m], positive.
         radius: f64,
     },
@@ -49,6 +56,12 @@ impl Shape {
         Self { form: Form::Sphere { radius }, centre, motion: ShapeMotion::Still }
     }
 
+    /// A capsule at rest: the ends of its line and its radius [m].
+    pub fn capsule(ends: [DVec3; 2], radius: f64) -> Self {
+        let half_axis = 0.5 * (ends[1] - ends[0]);
+        Self { form: Form::Capsule { half_axis, radius }, centre: ends[0] + half_axis, motion: ShapeMotion::Still }
+    }
+
     /// Whether it never moves.
     pub fn is_still(&self) -> bool {
         self.motion == ShapeMotion::Still
@@ -67,6 +80,14 @@ impl Shape {
         }
     }
 
+    /// How it is turned about its centre at a time [s].
+    pub fn turn(&self, time: f64) -> DQuat {
+        match &self.motion {
+            ShapeMotion::Still | ShapeMotion::Swing { .. } => DQuat::IDENTITY,
+            ShapeMotion::Keys(keys) => keys.at(time).1,
+        }
+    }
+
     /// Angular velocity [rad/s] at a time [s].
     pub fn spin(&self, time: f64) -> DVec3 {
         match &self.motion {
@@ -80,6 +101,11 @@ impl Shape {
         let from_centre = point - self.at(time).0;
         match self.form {
             Form::Sphere { radius } => radius - from_centre.length(),
+            Form::Capsule { half_axis, radius } => {
+                let axis = self.turn(time) * half_axis;
+                let place = (from_centre.dot(axis) / axis.length_squared()).clamp(-1.0, 1.0);
+                radius - (from_centre - axis * place).length()
+            }
         }
     }
 
@@ -88,6 +114,18 @@ impl Shape {
         let centre = self.at(time).0.as_vec3();
         match self.form {
             Form::Sphere { radius } => Mesh::sphere(centre, radius as f32, SPHERE_PARALLELS),
+            Form::Capsule { half_axis, radius } => {
+                // A sphere around the y axis, its halves drawn apart.
+                let mut mesh = Mesh::sphere(Vec3::ZERO, radius as f32, SPHERE_PARALLELS);
+                let axis = (self.turn(time) * half_axis).as_vec3();
+                let turn = Quat::from_rotation_arc(Vec3::Y, axis.normalize());
+                for (position, normal) in mesh.positions.iter_mut().zip(&mut mesh.normals) {
+                    let half = if normal.y < 0.0 { -axis } else { axis };
+                    *position = turn * *position + centre + half;
+                    *normal = turn * *normal;
+                }
+                mesh
+            }
         }
     }
 
@@ -95,6 +133,7 @@ impl Shape {
     pub fn name(&self) -> &'static str {
         match self.form {
             Form::Sphere { .. } => "sphere",
+            Form::Capsule { .. } => "capsule",
         }
     }
 }
@@ -125,6 +164,26 @@ mod tests {
             assert!(((after - before) / (2.0 * step)).distance(velocity) < 1e-7, "{shape:?}");
             let spin = if turns { dvec3(0.0, 0.0, -1.5) } else { DVec3::ZERO };
             assert!(shape.spin(0.7).distance(spin) < 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_mesh_of_a_shape_lies_on_its_surface_and_faces_outward() {
+        let key = |time, angle| RigidKey {
+            time,
+            translation: dvec3(0.0, time, 0.0),
+            rotation: DQuat::from_rotation_x(angle),
+        };
+        let motion = ShapeMotion::Keys(RigidMotion { keys: vec![key(0.0, 0.0), key(2.0, 2.0)] });
+        let ends = [dvec3(0.1, 0.2, 0.3), dvec3(0.4, -0.5, 0.3)];
+        for shape in [Shape::sphere(DVec3::X, 0.3), Shape::capsule(ends, 0.1)] {
+            let shape = Shape { motion: motion.clone(), ..shape };
+            let mesh = shape.mesh(0.7);
+            for (position, normal) in mesh.positions.iter().zip(&mesh.normals) {
+                let depth = |way: f32| shape.depth((*position + *normal * way).as_dvec3(), 0.7);
+                assert!(depth(0.0).abs() < 1e-6 && (depth(0.01) + 0.01).abs() < 1e-6, "{shape:?}: {position}");
+            }
+            assert!(mesh.triangles.len() > 1000);
         }
     }
 }

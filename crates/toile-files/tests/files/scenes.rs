@@ -37,7 +37,7 @@ fn the_fixtures_are_the_scenes_of_the_measurements() {
     for (name, moves) in [("ball", false), ("moving-ball", true)] {
         let file = read_scene(&fixture(&format!("scenes/{name}.toml")), &[]).expect("the fixture");
         let [Body::Shape(sphere)] = file.scene.bodies.as_slice() else { panic!("one sphere") };
-        let Form::Sphere { radius } = sphere.form;
+        let Form::Sphere { radius } = sphere.form else { panic!("a sphere") };
         assert_eq!((file.scene.name.as_str(), radius), (name, 0.25));
         assert_eq!(sphere.motion != ShapeMotion::Still, moves);
         let sheet = crate::scenes::sheet(&file);
@@ -176,7 +176,7 @@ fn wrong_overrides_name_the_key_and_what_there_is() {
         })
         .collect();
     insta::assert_snapshot!(messages.join("\n"), @r#"
-    hang.toml, key "speed": unknown field `speed`, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `wind`, `spacing`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `polish`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`
+    hang.toml, key "speed": unknown field `speed`, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `wind`, `spacing`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `polish`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`, `capsule`
     hang.toml, key "fabric": unknown field `colour`, expected one of `base`, `name`, `areal_density`, `structural_stiffness`, `shear_stiffness`, `bend_stiffness`, `bending_rigidity`, `damping`, `thickness`, `friction`, `threshold`
     hang.toml, key "n": it is 1 and must be 2 to 2097152
     hang.toml, key "n": 8192 × 8192 particles are more than 4194304
@@ -221,7 +221,7 @@ fn wrong_overrides_name_the_key_and_what_there_is() {
     hang.toml, key "wind.drag": it is -1 and must be 0 to 100
     hang.toml, key "wind.lift": it is inf and must be 0 to 100
     hang.toml, key "name.first": invalid type: map, expected a string
-    hang.toml, key "": unknown field ``, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `wind`, `spacing`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `polish`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`
+    hang.toml, key "": unknown field ``, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `wind`, `spacing`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `polish`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`, `capsule`
     "#);
 }
 
@@ -333,6 +333,29 @@ fn bodies_of_a_scene_move_by_clip_keys_or_sequence() {
     assert_eq!(sphere.at(2.0), (DVec3::new(0.0, 1.0, 2.0), DVec3::new(0.0, 0.0, 2.0)));
     assert!(sphere.spin(2.0).distance(DVec3::new(0.0, -std::f64::consts::FRAC_PI_4, 0.0)) < 1e-12);
     assert_eq!(sphere.spin(0.5), DVec3::ZERO);
+}
+
+#[test]
+fn a_scene_has_any_number_of_shapes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = folder.path();
+    let sphere = |x: f64| format!("[[sphere]]\ncentre = [{x}, 0, 0]\nradius = 0.1\n");
+    let capsule =
+        "[[capsule]]\nends = [[0, 0, 0], [0, 2, 0]]\nradius = 0.2\nswing = { amplitude = [1, 0, 0], period = 2 }\n";
+    write(at, "scene.toml", &format!("{SHEET}{}{}{capsule}", sphere(0.0), sphere(1.0)));
+    let bodies = read_scene(&at.join("scene.toml"), &[]).expect("the scene").scene.bodies;
+    let [Body::Shape(first), Body::Shape(second), Body::Shape(capsule)] = &bodies[..] else { panic!("three shapes") };
+    assert_eq!([first.centre.x, second.centre.x], [0.0, 1.0]);
+    assert_eq!((capsule.name(), capsule.centre), ("capsule", DVec3::Y));
+    assert_eq!(capsule.form, Form::Capsule { half_axis: DVec3::Y, radius: 0.2 });
+    // Half of its period: the far end of its swing.
+    assert!((capsule.depth(DVec3::new(1.0, 2.1, 0.0), 1.0) - 0.1).abs() < 1e-12);
+    write(at, "scene.toml", &format!("{SHEET}[[capsule]]\nends = [[0, 1, 0], [0, 1, 0]]\nradius = 0.2\n"));
+    let error = read_scene(&at.join("scene.toml"), &[]).expect_err("its ends are one").to_string();
+    assert!(
+        error.ends_with("key \"capsule.0.ends\": they must be 0.001 to 1000 m apart; a sphere has one centre"),
+        "{error}"
+    );
 }
 
 #[test]

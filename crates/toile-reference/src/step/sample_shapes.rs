@@ -3,7 +3,7 @@
 use crate::Probe;
 use glam::{Vec3, Vec3Swizzles};
 use std::cmp::Ordering;
-use toile_model::{ShapeStep, StepSettings};
+use toile_model::{ShapeKind, ShapeStep, StepSettings};
 
 /// Writes the nearest of the shapes that a point reaches within this step into its probe, where the probe has no surface yet or a
 /// farther one. A point whose way, seen from a shape, would enter it meets it where it does. All arrays but `shapes` have the shape
@@ -30,20 +30,56 @@ pub fn sample_shapes(
 /// The plane that a point sees of a shape; none in its very middle, where no direction leads out.
 fn look_at(shape: &ShapeStep, position: Vec3, velocity: Vec3, settings: &StepSettings) -> Option<Probe> {
     let radial = position - shape.centre;
+    if shape.kind == ShapeKind::Capsule {
+        return look_at_capsule(shape, radial, velocity, settings);
+    }
     let way = (velocity - shape.velocity) * settings.dt;
     let entry = if settings.swept { sphere_entry(radial, way, shape.radius) } else { None };
-    plane(shape, radial, entry.map_or(radial, |share| radial + way * share))
+    plane(shape, radial, entry.map_or(radial, |share| radial + way * share), Vec3::ZERO)
 }
 
-/// The plane that touches a shape under the place `met`: its distance from `radial`, all relative to the centre of the shape [m].
-fn plane(shape: &ShapeStep, radial: Vec3, met: Vec3) -> Option<Probe> {
-    let length = met.length();
+/// The plane that touches a shape under the place `met`, as far from the place `core` of its middle line as the radius: its distance from
+/// `radial`, all relative to the centre of the shape [m].
+fn plane(shape: &ShapeStep, radial: Vec3, met: Vec3, core: Vec3) -> Option<Probe> {
+    let outward = met - core;
+    let length = outward.length();
     (length > 0.0).then(|| {
-        let normal = met / length;
+        let normal = outward / length;
         // The cross product of spin and radius, added term by term: the order is part of the answer.
         let velocity = (shape.velocity + shape.spin.yzx() * met.zxy()) - shape.spin.zxy() * met.yzx();
-        Probe { normal, distance: normal.dot(radial) - shape.radius, velocity, hit: true }
+        Probe { normal, distance: normal.dot(radial - core) - shape.radius, velocity, hit: true }
     })
+}
+
+/// The plane that a point sees of a capsule, `radial` from its centre [m].
+fn look_at_capsule(shape: &ShapeStep, radial: Vec3, velocity: Vec3, settings: &StepSettings) -> Option<Probe> {
+    // Seen from the capsule, which turns: what turns with it stands still.
+    let turning = shape.spin.yzx() * radial.zxy() - shape.spin.zxy() * radial.yzx();
+    let way = ((velocity - shape.velocity) - turning) * settings.dt;
+    let entry = if settings.swept { capsule_entry(shape, radial, way) } else { None };
+    let met = entry.map_or(radial, |share| radial + way * share);
+    let along = met.dot(shape.axis) / shape.axis.dot(shape.axis);
+    plane(shape, radial, met, shape.axis * along.clamp(-1.0, 1.0))
+}
+
+/// After which part of its way a place outside of a capsule meets it: its side where the endless cylinder around it is entered between its
+/// ends, else the sphere around the end beyond which that happens.
+fn capsule_entry(shape: &ShapeStep, start: Vec3, way: Vec3) -> Option<f32> {
+    let axis = shape.axis;
+    let axis_squared = axis.dot(axis);
+    let mut along = start.dot(axis) / axis_squared;
+    let start_across = start - axis * along;
+    let way_across = way - axis * (way.dot(axis) / axis_squared);
+    if start_across.dot(start_across) > shape.radius * shape.radius {
+        let share = sphere_entry(start_across, way_across, shape.radius)?;
+        along = (start + way * share).dot(axis) / axis_squared;
+        if along.abs() <= 1.0 {
+            return Some(share);
+        }
+    } else if along.abs() <= 1.0 {
+        return None;
+    }
+    sphere_entry(start - axis * along.signum(), way, shape.radius)
 }
 
 /// The nearer first; of two that are equally near the one whose normal, then whose velocity is larger in the first coordinate that differs.

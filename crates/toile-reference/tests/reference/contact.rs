@@ -1,7 +1,7 @@
 //! Contact: friction on a plate, the sphere, and which side of a map answers.
 
 use crate::support::{GRAVITY, Grid, settings};
-use glam::{DVec3, Vec3, vec3};
+use glam::{DVec3, Vec3, vec2, vec3};
 use toile_model::{NO_CORNER, ShapeStep, StepSettings};
 use toile_reference::maps::{BodyMaps, Surface, render_maps};
 use toile_reference::{Colliders, Contact, Probe, Reference, step};
@@ -207,6 +207,55 @@ fn a_sheet_on_a_moving_sphere_stays_outside() {
 #[test]
 fn the_oracle_of_the_sphere_sees_a_larger_one() {
     assert!(sphere_clearance(ShapeMotion::Still, 0.202) < 0.0);
+}
+
+/// By how much the direction is wrong in which a capsule meets points that it passes at 100 m/s within one step.
+fn capsule_error(swept: bool) -> f32 {
+    let settings = StepSettings { dt: 1.0 / 60.0, swept, thickness: 0.0, ..settings() };
+    let swing = ShapeMotion::Swing { amplitude: DVec3::Z * 2.0, period: 4.0 / 60.0 };
+    let ends = [DVec3::new(-0.4, 0.0, -0.2), DVec3::new(0.4, 0.1, -0.2)];
+    let radius = 0.05;
+    let capsule = ShapeStep::of(&Shape { motion: swing, ..Shape::capsule(ends, radius) }, 0, &settings);
+    let [a, b] = [capsule.centre - capsule.axis, capsule.centre + capsule.axis].map(|end| end.truncate());
+    // From beside one end to beside the other, and from the line outward.
+    let places =
+        (-2..=22).flat_map(|x| [0.0, 0.3, 0.6, 0.9].map(|y| a + (b - a) * (x as f32 / 20.0) + vec2(0.0, y * 0.05)));
+    let mut worst: f32 = 0.0;
+    for place in places {
+        let along = ((place - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+        let beside = place.distance(a + (b - a) * along) / radius as f32;
+        if beside < 0.95 {
+            let mut probes = [Probe::default()];
+            step::sample_shapes(&mut probes, &[place.extend(0.0)], &[Vec3::ZERO], &[capsule], &settings);
+            assert!(probes[0].hit && probes[0].velocity.z > 50.0, "{place} is met");
+            worst = worst.max((probes[0].normal.z - (1.0 - beside * beside).sqrt()).abs());
+        }
+    }
+    worst
+}
+
+#[test]
+fn a_fast_capsule_meets_points_where_it_first_touches_them() {
+    assert!(capsule_error(true) < 1e-3, "{}", capsule_error(true));
+    assert!(capsule_error(false) > 0.3, "without the test of the whole way: {}", capsule_error(false));
+}
+
+#[test]
+fn a_sheet_dropped_on_a_capsule_stays_outside() {
+    let capsule = Shape::capsule([DVec3::new(-0.2, -0.3, 0.1), DVec3::new(0.2, -0.25, -0.1)], 0.2);
+    let settings = StepSettings { dt: 1.0 / 600.0, rule: Rule::Predictive, sweeps: 2, damping: 0.5, ..settings() };
+    let model = Grid::horizontal(21, 0.03).model();
+    let colliders = Colliders { maps: None, shapes: vec![capsule.clone()] };
+    let mut reference = Reference::new(&model, &settings, colliders);
+    let (mut touched, mut deepest) = (0, f64::NEG_INFINITY);
+    for _ in 0..1200 {
+        reference.step();
+        touched = touched.max(reference.contacts().iter().filter(|contact| contact.touching).count());
+        let depths = reference.positions().iter().map(|position| capsule.depth(position.as_dvec3(), 0.0));
+        deepest = depths.fold(deepest, f64::max);
+    }
+    assert!(touched > 20, "{touched} particles touched the capsule");
+    assert!(deepest < -4e-4, "{deepest} m deep");
 }
 
 #[test]

@@ -158,7 +158,7 @@ fn particle_quads(random: &mut Random, counts: &Counts) -> Csr<u32> {
     }))
 }
 
-/// Spheres: one alone, two that mirror each other, and two in one place that move differently.
+/// Spheres: one alone, two that mirror each other, and two in one place that move differently; and a capsule.
 fn shapes() -> Vec<ShapeStep> {
     let sphere = ShapeStep {
         kind: ShapeKind::Sphere,
@@ -181,7 +181,15 @@ fn shapes() -> Vec<ShapeStep> {
         spin: Vec3::ZERO,
         ..sphere
     });
-    [[sphere].as_slice(), &mirrored, &twins].concat()
+    let capsule = ShapeStep {
+        kind: ShapeKind::Capsule,
+        centre: vec3(0.3, 0.35, 0.2),
+        radius: 0.08,
+        velocity: vec3(0.2, -0.4, 0.1),
+        spin: vec3(-2.0, 1.0, 3.0),
+        axis: vec3(0.15, 0.1, -0.2),
+    };
+    [[sphere].as_slice(), &mirrored, &twins, &[capsule]].concat()
 }
 
 fn counts(domain: Domain, items: u32) -> Counts {
