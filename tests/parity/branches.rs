@@ -421,6 +421,8 @@ fn shapes(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usiz
     see("is reached by the side of a capsule", all().filter(|i| by_capsule(i) && along(i).abs() < 1.0).count());
     see("is reached by an end of a capsule", all().filter(|i| by_capsule(i) && along(i) > 1.0).count());
     see("is reached by its other end", all().filter(|i| by_capsule(i) && along(i) < -1.0).count());
+    let plane = before.shapes.iter().position(|shape| shape.kind == ShapeKind::Plane).expect("there is one");
+    see("is reached by a plane", all().filter(|i| reached(i) && same(&after.probes[*i], &alone[plane][*i])).count());
     for order in
         [before.shapes.iter().rev().copied().collect::<Vec<_>>(), [&before.shapes[2..], &before.shapes[..2]].concat()]
     {

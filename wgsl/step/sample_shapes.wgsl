@@ -9,10 +9,11 @@ struct Shape {
     velocity: vec3<f32>,    // [m/s]
     kind: u32,
     spin: vec3<f32>,        // angular velocity [rad/s]
-    axis: vec3<f32>,        // of a shape with a direction [m]
+    axis: vec3<f32>,        // of a capsule from its centre to an end [m], of a plane its normal
 }
 
 const CAPSULE: u32 = 1u;
+const PLANE: u32 = 2u;
 
 @group(0) @binding(6) var<storage, read> shapes: array<Shape>;
 
@@ -83,8 +84,19 @@ fn capsule_probe(shape: Shape, from_centre: vec3<f32>, velocity: vec3<f32>) -> P
     return plane_of(shape, from_centre, met, shape.axis * clamp(along, -1.0, 1.0));
 }
 
+// A plane is met in one direction only, so it needs no way.
+fn plane_probe(shape: Shape, from_centre: vec3<f32>) -> Probe {
+    let height = dot(shape.axis, from_centre);
+    let below = from_centre - shape.axis * height;
+    let surface_velocity = (shape.velocity + shape.spin.yzx * below.zxy) - shape.spin.zxy * below.yzx;
+    return Probe(shape.axis, height - shape.radius, surface_velocity, 1.0);
+}
+
 fn look_at(shape: Shape, point: Midpoint) -> Probe {
     let from_centre = point.position - shape.centre;
+    if shape.kind == PLANE {
+        return plane_probe(shape, from_centre);
+    }
     if shape.kind == CAPSULE {
         return capsule_probe(shape, from_centre, point.velocity);
     }

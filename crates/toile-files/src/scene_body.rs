@@ -7,7 +7,7 @@ use crate::gltf_rig::DURATION_MAX;
 use crate::mesh_sequence::read_mesh_sequence;
 use crate::moving_body::read_moving_body;
 use crate::scene::{SIZES, vector, within, wrong};
-use crate::scene_toml::{BodyToml, CapsuleToml, KeyToml, SceneToml, SphereToml, SwingToml, UnitsToml};
+use crate::scene_toml::{BodyToml, CapsuleToml, KeyToml, PlaneToml, SceneToml, SphereToml, SwingToml, UnitsToml};
 use glam::{DQuat, DVec3};
 use std::path::Path;
 use toile_scene::{Body, MovingMesh, RigidKey, RigidMotion, Settings, Shape, ShapeMotion};
@@ -69,7 +69,8 @@ pub(crate) fn convert_body(index: usize, toml: &BodyToml, folder: &Path) -> Resu
 pub(crate) fn convert_shapes(toml: &SceneToml) -> Result<Vec<Shape>, Found> {
     let spheres = toml.sphere.iter().enumerate().map(|(index, sphere)| convert_sphere(index, sphere));
     let capsules = toml.capsule.iter().enumerate().map(|(index, capsule)| convert_capsule(index, capsule));
-    spheres.chain(capsules).collect()
+    let planes = toml.plane.iter().enumerate().map(|(index, plane)| convert_plane(index, plane));
+    spheres.chain(capsules).chain(planes).collect()
 }
 
 /// Converts a sphere of a scene.
@@ -91,6 +92,15 @@ fn convert_capsule(index: usize, toml: &CapsuleToml) -> Result<Shape, Found> {
         return Err(wrong(&key("ends"), format!("they must be {range} apart; a sphere has one centre")));
     }
     Ok(Shape { motion, ..Shape::capsule(ends, radius) })
+}
+
+/// Converts a plane of a scene.
+fn convert_plane(index: usize, toml: &PlaneToml) -> Result<Shape, Found> {
+    let key = |name: &str| format!("plane.{index}.{name}");
+    let motion = convert_motion(&key, &toml.swing, &toml.keys)?;
+    let normal = vector(&key("normal"), toml.normal)?.try_normalize();
+    let normal = normal.ok_or_else(|| wrong(&key("normal"), "it must be a direction out of the plane, not zero"))?;
+    Ok(Shape { motion, ..Shape::plane(vector(&key("point"), toml.point)?, normal) })
 }
 
 /// Converts the motion of a shape, whose keys `key` names.

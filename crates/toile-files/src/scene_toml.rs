@@ -32,6 +32,8 @@ pub(crate) struct SceneToml {
     pub sphere: Vec<SphereToml>,
     #[serde(default)]
     pub capsule: Vec<CapsuleToml>,
+    #[serde(default)]
+    pub plane: Vec<PlaneToml>,
 }
 
 #[derive(Clone, Copy, Deserialize)]
@@ -221,6 +223,15 @@ pub(crate) struct CapsuleToml {
     /// The ends of its line.
     pub ends: [[f64; 3]; 2],
     pub radius: f64,
+    pub swing: Option<SwingToml>,
+    pub keys: Option<Vec<KeyToml>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PlaneToml {
+    pub point: [f64; 3],
+    pub normal: [f64; 3],
     pub swing: Option<SwingToml>,
     pub keys: Option<Vec<KeyToml>>,
 }

@@ -17,7 +17,7 @@ pub struct ShapeStep {
     pub velocity: Vec3,
     /// Angular velocity [rad/s].
     pub spin: Vec3,
-    /// Of a capsule from the centre to one of its ends at the start of the step [m]; zero of a sphere.
+    /// At the start of the step: of a capsule from the centre to one of its ends [m], of a plane the unit normal; zero of a sphere.
     pub axis: Vec3,
 }
 
@@ -28,6 +28,8 @@ pub enum ShapeKind {
     Sphere = 0,
     /// A capsule.
     Capsule = 1,
+    /// A plane.
+    Plane = 2,
 }
 
 impl ShapeStep {
@@ -38,6 +40,7 @@ impl ShapeStep {
         let (kind, radius, axis) = match shape.form {
             Form::Sphere { radius } => (ShapeKind::Sphere, radius, DVec3::ZERO),
             Form::Capsule { half_axis, radius } => (ShapeKind::Capsule, radius, half_axis),
+            Form::Plane { normal } => (ShapeKind::Plane, 0.0, normal),
         };
         Self {
             kind,

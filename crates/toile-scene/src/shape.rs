@@ -6,6 +6,9 @@ use glam::{DQuat, DVec3, Quat, Vec3};
 /// Parallels of a sphere in pictures and files.
 const SPHERE_PARALLELS: u32 = 48;
 
+/// Side of the square that stands for a plane there [m].
+const PLANE_SIDE: f32 = 4.0;
+
 /// An analytic shape.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
@@ -31,6 +34,11 @@ pub enum Form {
         half_axis: DVec3,
         /// Radius [m], positive.
         radius: f64,
+    },
+    /// All that lies behind a plane through the centre, without end.
+    Plane {
+        /// Unit normal, outward, before it turns.
+        normal: DVec3,
     },
 }
 
@@ -60,6 +68,11 @@ impl Shape {
     pub fn capsule(ends: [DVec3; 2], radius: f64) -> Self {
         let half_axis = 0.5 * (ends[1] - ends[0]);
         Self { form: Form::Capsule { half_axis, radius }, centre: ends[0] + half_axis, motion: ShapeMotion::Still }
+    }
+
+    /// A plane at rest: a point on it [m], and its normal, outward, of any length but zero.
+    pub fn plane(point: DVec3, normal: DVec3) -> Self {
+        Self { form: Form::Plane { normal: normal.normalize() }, centre: point, motion: ShapeMotion::Still }
     }
 
     /// Whether it never moves.
@@ -106,10 +119,11 @@ impl Shape {
                 let place = (from_centre.dot(axis) / axis.length_squared()).clamp(-1.0, 1.0);
                 radius - (from_centre - axis * place).length()
             }
+            Form::Plane { normal } => -from_centre.dot(self.turn(time) * normal),
         }
     }
 
-    /// Its surface at a time [s] as a mesh, to look at.
+    /// Its surface at a time [s] as a mesh, to look at; a square of a plane.
     pub fn mesh(&self, time: f64) -> Mesh {
         let centre = self.at(time).0.as_vec3();
         match self.form {
@@ -126,6 +140,16 @@ impl Shape {
                 }
                 mesh
             }
+            Form::Plane { normal } => {
+                let normal = (self.turn(time) * normal).as_vec3();
+                let turn = Quat::from_rotation_arc(Vec3::Y, normal);
+                let corner = |x: f32, z: f32| centre + turn * (Vec3::new(x, 0.0, z) * (0.5 * PLANE_SIDE));
+                Mesh {
+                    positions: vec![corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0), corner(-1.0, -1.0)],
+                    normals: vec![normal; 4],
+                    triangles: vec![[0, 1, 2], [0, 2, 3]],
+                }
+            }
         }
     }
 
@@ -134,6 +158,7 @@ impl Shape {
         match self.form {
             Form::Sphere { .. } => "sphere",
             Form::Capsule { .. } => "capsule",
+            Form::Plane { .. } => "plane",
         }
     }
 }
@@ -176,14 +201,15 @@ mod tests {
         };
         let motion = ShapeMotion::Keys(RigidMotion { keys: vec![key(0.0, 0.0), key(2.0, 2.0)] });
         let ends = [dvec3(0.1, 0.2, 0.3), dvec3(0.4, -0.5, 0.3)];
-        for shape in [Shape::sphere(DVec3::X, 0.3), Shape::capsule(ends, 0.1)] {
+        for shape in [Shape::sphere(DVec3::X, 0.3), Shape::capsule(ends, 0.1), Shape::plane(ends[0], ends[1])] {
             let shape = Shape { motion: motion.clone(), ..shape };
             let mesh = shape.mesh(0.7);
             for (position, normal) in mesh.positions.iter().zip(&mesh.normals) {
                 let depth = |way: f32| shape.depth((*position + *normal * way).as_dvec3(), 0.7);
                 assert!(depth(0.0).abs() < 1e-6 && (depth(0.01) + 0.01).abs() < 1e-6, "{shape:?}: {position}");
             }
-            assert!(mesh.triangles.len() > 1000);
+            let [a, b, c] = mesh.triangles[0].map(|vertex| mesh.positions[vertex as usize]);
+            assert!((b - a).cross(c - a).dot(mesh.normals[0]) > 0.0, "{shape:?} faces outward");
         }
     }
 }

@@ -176,7 +176,7 @@ fn wrong_overrides_name_the_key_and_what_there_is() {
         })
         .collect();
     insta::assert_snapshot!(messages.join("\n"), @r#"
-    hang.toml, key "speed": unknown field `speed`, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `wind`, `spacing`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `polish`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`, `capsule`
+    hang.toml, key "speed": unknown field `speed`, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `wind`, `spacing`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `polish`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`, `capsule`, `plane`
     hang.toml, key "fabric": unknown field `colour`, expected one of `base`, `name`, `areal_density`, `structural_stiffness`, `shear_stiffness`, `bend_stiffness`, `bending_rigidity`, `damping`, `thickness`, `friction`, `threshold`
     hang.toml, key "n": it is 1 and must be 2 to 2097152
     hang.toml, key "n": 8192 × 8192 particles are more than 4194304
@@ -221,7 +221,7 @@ fn wrong_overrides_name_the_key_and_what_there_is() {
     hang.toml, key "wind.drag": it is -1 and must be 0 to 100
     hang.toml, key "wind.lift": it is inf and must be 0 to 100
     hang.toml, key "name.first": invalid type: map, expected a string
-    hang.toml, key "": unknown field ``, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `wind`, `spacing`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `polish`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`, `capsule`
+    hang.toml, key "": unknown field ``, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `wind`, `spacing`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `polish`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`, `capsule`, `plane`
     "#);
 }
 
@@ -350,6 +350,13 @@ fn a_scene_has_any_number_of_shapes() {
     assert_eq!(capsule.form, Form::Capsule { half_axis: DVec3::Y, radius: 0.2 });
     // Half of its period: the far end of its swing.
     assert!((capsule.depth(DVec3::new(1.0, 2.1, 0.0), 1.0) - 0.1).abs() < 1e-12);
+    write(at, "scene.toml", &format!("{SHEET}[[plane]]\npoint = [0, 1, 0]\nnormal = [0, 2, 0]\n"));
+    let bodies = read_scene(&at.join("scene.toml"), &[]).expect("the scene").scene.bodies;
+    let [Body::Shape(plane)] = &bodies[..] else { panic!("one plane") };
+    assert_eq!((plane.name(), plane.depth(DVec3::new(3.0, 0.75, 2.0), 0.0)), ("plane", 0.25));
+    write(at, "scene.toml", &format!("{SHEET}[[plane]]\npoint = [0, 1, 0]\nnormal = [0, 0, 0]\n"));
+    let error = read_scene(&at.join("scene.toml"), &[]).expect_err("no direction").to_string();
+    assert!(error.ends_with("key \"plane.0.normal\": it must be a direction out of the plane, not zero"), "{error}");
     write(at, "scene.toml", &format!("{SHEET}[[capsule]]\nends = [[0, 1, 0], [0, 1, 0]]\nradius = 0.2\n"));
     let error = read_scene(&at.join("scene.toml"), &[]).expect_err("its ends are one").to_string();
     assert!(

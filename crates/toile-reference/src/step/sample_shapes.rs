@@ -30,8 +30,10 @@ pub fn sample_shapes(
 /// The plane that a point sees of a shape; none in its very middle, where no direction leads out.
 fn look_at(shape: &ShapeStep, position: Vec3, velocity: Vec3, settings: &StepSettings) -> Option<Probe> {
     let radial = position - shape.centre;
-    if shape.kind == ShapeKind::Capsule {
-        return look_at_capsule(shape, radial, velocity, settings);
+    match shape.kind {
+        ShapeKind::Sphere => {}
+        ShapeKind::Capsule => return look_at_capsule(shape, radial, velocity, settings),
+        ShapeKind::Plane => return Some(look_at_plane(shape, radial)),
     }
     let way = (velocity - shape.velocity) * settings.dt;
     let entry = if settings.swept { sphere_entry(radial, way, shape.radius) } else { None };
@@ -80,6 +82,14 @@ fn capsule_entry(shape: &ShapeStep, start: Vec3, way: Vec3) -> Option<f32> {
         return None;
     }
     sphere_entry(start - axis * along.signum(), way, shape.radius)
+}
+
+/// The plane itself, seen from `radial` [m] relative to its centre.
+fn look_at_plane(shape: &ShapeStep, radial: Vec3) -> Probe {
+    let height = shape.axis.dot(radial);
+    let below = radial - shape.axis * height;
+    let velocity = (shape.velocity + shape.spin.yzx() * below.zxy()) - shape.spin.zxy() * below.yzx();
+    Probe { normal: shape.axis, distance: height - shape.radius, velocity, hit: true }
 }
 
 /// The nearer first; of two that are equally near the one whose normal, then whose velocity is larger in the first coordinate that differs.

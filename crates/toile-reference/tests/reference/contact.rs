@@ -258,6 +258,26 @@ fn a_sheet_dropped_on_a_capsule_stays_outside() {
     assert!(deepest < -4e-4, "{deepest} m deep");
 }
 
+/// A plate lifts the cloth, however fast it falls.
+#[test]
+fn a_sheet_that_falls_on_a_plane_that_swings_stays_above_it() {
+    let swing = ShapeMotion::Swing { amplitude: DVec3::new(0.0, 0.1, 0.0), period: 0.5 };
+    let plane = Shape { motion: swing, ..Shape::plane(DVec3::new(0.0, -0.2, 0.0), DVec3::new(0.1, 1.0, 0.0)) };
+    let settings = StepSettings { dt: 1.0 / 600.0, rule: Rule::Predictive, sweeps: 2, damping: 0.5, ..settings() };
+    let model = Grid::horizontal(9, 0.03).model();
+    let mut reference = Reference::new(&model, &settings, Colliders { maps: None, shapes: vec![plane.clone()] });
+    let (mut touched, mut deepest) = (0, f64::NEG_INFINITY);
+    for step in 0..300 {
+        reference.step();
+        touched = touched.max(reference.contacts().iter().filter(|contact| contact.touching).count());
+        let time = f64::from(step + 1) / 600.0;
+        let depths = reference.positions().iter().map(|position| plane.depth(position.as_dvec3(), time));
+        deepest = depths.fold(deepest, f64::max);
+    }
+    assert!(touched > 40, "{touched} particles touched the plane");
+    assert!(deepest < 0.0, "{deepest} m deep");
+}
+
 #[test]
 fn maps_are_read_where_they_were_drawn() {
     let mesh = Mesh::cuboid(vec3(0.1, 0.3, 0.0), vec3(0.2, 0.5, 0.1));

@@ -158,7 +158,7 @@ fn particle_quads(random: &mut Random, counts: &Counts) -> Csr<u32> {
     }))
 }
 
-/// Spheres: one alone, two that mirror each other, and two in one place that move differently; and a capsule.
+/// Spheres: one alone, two that mirror each other, and two in one place that move differently; a capsule and a plane.
 fn shapes() -> Vec<ShapeStep> {
     let sphere = ShapeStep {
         kind: ShapeKind::Sphere,
@@ -189,7 +189,15 @@ fn shapes() -> Vec<ShapeStep> {
         spin: vec3(-2.0, 1.0, 3.0),
         axis: vec3(0.15, 0.1, -0.2),
     };
-    [[sphere].as_slice(), &mirrored, &twins, &[capsule]].concat()
+    let plane = ShapeStep {
+        kind: ShapeKind::Plane,
+        centre: vec3(0.1, -0.56, -0.05),
+        radius: 0.004,
+        velocity: vec3(0.3, 0.1, -0.2),
+        spin: vec3(0.1, 0.4, -0.2),
+        axis: vec3(0.1, 1.0, -0.15).normalize(),
+    };
+    [[sphere].as_slice(), &mirrored, &twins, &[capsule, plane]].concat()
 }
 
 fn counts(domain: Domain, items: u32) -> Counts {
