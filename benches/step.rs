@@ -3,14 +3,19 @@
 //! of a kernel that reads and writes position and velocity of every particle, which carries over between machines. Then
 //! the bytes per particle.
 //!
-//! `cargo bench --bench step`, or `cargo bench --bench step -- --quick` for 64² and 256² only.
+//! `cargo bench --bench step`, or `cargo bench --bench step -- --quick` for 64² and 256² only. Before them stands what a frame
+//! costs the host; `-- --host` measures that alone.
 
 mod support;
 
+use std::time::Instant;
 use support::Bench;
 use toile::model::StepSettings;
 use toile::{Cloth, Colliders};
 use toile_workspace::{scene, shapes, sheet_model};
+
+/// Frames whose recording is measured.
+const HOST_FRAMES: usize = 20;
 
 /// Steps that are measured.
 const STEPS: usize = 20;
@@ -18,6 +23,12 @@ const STEPS: usize = 20;
 fn main() {
     let sizes: &[u32] = if has_option("--quick") { &[64, 256] } else { &[64, 128, 256, 512, 1024] };
     let bench = Bench::open();
+    for name in ["ball", "moving-ball"] {
+        measure_host(&bench, name, 128);
+    }
+    if has_option("--host") {
+        return;
+    }
     for name in ["hang", "ball"] {
         for size in sizes {
             measure(&bench, name, *size);
@@ -50,9 +61,41 @@ fn measure(bench: &Bench, name: &str, size: u32) {
     println!("  {:<18} {dispatches:>10} {:>12.1} {:>12.2}", "step", 1e3 * step, step / cost.state_copy);
 }
 
+/// What it takes the host to record a frame, and wgpu to finish the encoder: the least of some frames, whose work is done before the next.
+fn measure_host(bench: &Bench, name: &str, size: u32) {
+    let scene = scene(name, &[("n", &size.to_string())]);
+    let model = sheet_model(&scene);
+    let settings = StepSettings::new(&scene.settings, &model);
+    let mut cloth = Cloth::new(&bench.device, &model, &settings, Colliders { maps: None, shapes: shapes(&scene) })
+        .unwrap_or_else(|error| panic!("{error}"));
+    let steps = settings.steps_per_frame as usize;
+    let dispatches = steps * cloth.plan().step.len() + cloth.plan().frame.len();
+    let mut least = [f64::INFINITY; 2];
+    for _ in 0..HOST_FRAMES {
+        let start = Instant::now();
+        let mut encoder = bench.device.create_command_encoder(&Default::default());
+        cloth.record(&bench.device, &mut encoder);
+        let recorded = start.elapsed();
+        let commands = encoder.finish();
+        let finished = start.elapsed();
+        bench.queue.submit([commands]);
+        bench.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device answers");
+        least[0] = least[0].min(1e3 * recorded.as_secs_f64());
+        least[1] = least[1].min(1e3 * (finished - recorded).as_secs_f64());
+    }
+    let [record, finish] = least;
+    println!(
+        "\n{name} {size}²: a frame is {dispatches} dispatches, recorded in {record:.2} ms, finished in {finish:.2} ms"
+    );
+}
+
 /// Whether the option is among the arguments. cargo adds `--bench`, which says nothing.
 fn has_option(option: &str) -> bool {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
-    assert!(arguments.iter().all(|argument| argument == option), "the only option is {option}, not {arguments:?}");
-    !arguments.is_empty()
+    let known = ["--quick", "--host"];
+    assert!(
+        arguments.iter().all(|argument| known.contains(&argument.as_str())),
+        "the options are {known:?}, not {arguments:?}"
+    );
+    arguments.iter().any(|argument| argument == option)
 }

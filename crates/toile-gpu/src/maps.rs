@@ -3,6 +3,7 @@
 use crate::GpuError;
 use crate::contents::{Encode, uniform};
 use crate::limits::check_limits;
+use std::sync::{Mutex, PoisonError};
 use toile_kernels::{render_maps_source, structs};
 use toile_model::MapFrame;
 use toile_scene::Mesh;
@@ -74,6 +75,17 @@ pub struct BodyMaps {
     frame_uniform: wgpu::Buffer,
     pipeline: wgpu::RenderPipeline,
     layout: wgpu::BindGroupLayout,
+    cameras: Mutex<Vec<Cameras>>,
+}
+
+/// Most thicknesses whose cameras are kept: the garments of an outfit have one or a few.
+const CAMERAS_KEPT: usize = 8;
+
+/// The front and the back camera for a thickness, which never change: commands that are recorded already keep theirs.
+#[derive(Debug)]
+struct Cameras {
+    thickness: f32,
+    sides: [wgpu::BindGroup; 2],
 }
 
 /// A texture of two layers.
@@ -147,6 +159,7 @@ impl BodyMaps {
             frame_uniform: create(device, "map_frame", &uniform(&frame.encode()), usage),
             pipeline,
             layout,
+            cameras: Mutex::default(),
         })
     }
 
@@ -162,6 +175,7 @@ impl BodyMaps {
             frame_uniform: create(device, "map_frame", &vec![0; self.frame_uniform.size() as usize], usage),
             pipeline: self.pipeline.clone(),
             layout: self.layout.clone(),
+            cameras: Mutex::default(),
         }
     }
 
@@ -229,9 +243,8 @@ impl BodyMaps {
     ) {
         let colour_load = if anew { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { wgpu::LoadOp::Load };
         let depth_load = if anew { wgpu::LoadOp::Clear(1.0) } else { wgpu::LoadOp::Load };
+        let cameras: Vec<_> = surfaces.iter().map(|(_, thickness)| self.cameras(device, *thickness)).collect();
         for side in 0..2 {
-            let groups: Vec<_> =
-                surfaces.iter().map(|(_, thickness)| self.camera(device, side as u32, *thickness)).collect();
             let normals = self.normals.colour(side, colour_load);
             let velocities = self.velocities.as_ref().and_then(|map| map.colour(side, colour_load));
             let colours: Vec<_> = [normals, velocities].into_iter().filter(Option::is_some).collect();
@@ -246,8 +259,8 @@ impl BodyMaps {
                 ..Default::default()
             });
             pass.set_pipeline(&self.pipeline);
-            for ((surface, _), group) in surfaces.iter().zip(&groups) {
-                pass.set_bind_group(0, group, &[]);
+            for ((surface, _), cameras) in surfaces.iter().zip(&cameras) {
+                pass.set_bind_group(0, &cameras[side], &[]);
                 pass.set_vertex_buffer(0, surface.positions.slice(..));
                 pass.set_vertex_buffer(1, surface.normals.slice(..));
                 if self.is_moving() {
@@ -299,6 +312,20 @@ impl BodyMaps {
             "velocity_map" => self.velocities.as_ref().map(|map| wgpu::BindingResource::TextureView(&map.layers)),
             _ => None,
         }
+    }
+
+    /// Both cameras for a thickness, made once.
+    fn cameras(&self, device: &wgpu::Device, thickness: f32) -> [wgpu::BindGroup; 2] {
+        let mut kept = self.cameras.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = kept.iter().find(|known| known.thickness == thickness) {
+            return known.sides.clone();
+        }
+        let sides = [0, 1].map(|side| self.camera(device, side, thickness));
+        if kept.len() == CAMERAS_KEPT {
+            kept.remove(0);
+        }
+        kept.push(Cameras { thickness, sides: sides.clone() });
+        sides
     }
 
     fn camera(&self, device: &wgpu::Device, side: u32, thickness: f32) -> wgpu::BindGroup {

@@ -134,7 +134,7 @@ impl Joints {
             bytes += needed.max(16);
             Ok(create(device, label, contents, storage | wgpu::BufferUsages::COPY_DST))
         };
-        let vertices = vertices_uniform(device, vertex_count);
+        let vertices = vertices_uniform(device, vertex_count, 0.0);
         let bind_positions = upload("bind_positions", bytemuck::cast_slice(&padded(&skin.positions)))?;
         let bind_normals = upload("bind_normals", bytemuck::cast_slice(&padded(&skin.normals)))?;
         let influence_offsets = upload("influence_offsets", bytemuck::cast_slice(&skin.influence_offsets))?;

@@ -11,9 +11,16 @@ pub struct Trail {
     positions: wgpu::Buffer,
     last_positions: wgpu::Buffer,
     velocities: wgpu::Buffer,
-    vertices: wgpu::Buffer,
     vertex_count: u32,
     program: Program,
+    /// What the last arrival was recorded with: hosts move a surface at an even pace.
+    last: Pace,
+}
+
+/// The vertices at a pace, which never changes: commands that are recorded already keep theirs.
+#[derive(Debug)]
+struct Pace {
+    rate: f32,
     group: wgpu::BindGroup,
 }
 
@@ -27,19 +34,9 @@ impl Trail {
         use wgpu::BufferUsages as Usage;
         let last_positions = buffer("last_positions", Usage::STORAGE | Usage::COPY_DST);
         let velocities = buffer("surface_velocities", Usage::STORAGE | Usage::VERTEX | Usage::COPY_SRC);
-        let vertices = vertices_uniform(device, vertex_count);
         let program = Program::new(device, Kernel::VertexVelocities);
-        let group = program.bind(device, |binding| {
-            let buffer = match binding.name.as_str() {
-                "vertices" => return vertices.as_entire_binding(),
-                "last_positions" => &last_positions,
-                "surface_positions" => positions,
-                "surface_velocities" => &velocities,
-                other => panic!("a trail has no {other}"),
-            };
-            sized(buffer, size)
-        });
-        Self { positions: positions.clone(), last_positions, velocities, vertices, vertex_count, program, group }
+        let last = Pace::new(device, &program, [positions, &last_positions, &velocities], vertex_count, 0.0);
+        Self { positions: positions.clone(), last_positions, velocities, vertex_count, program, last }
     }
 
     /// Records that the surface is about to move: where it is now is where it was.
@@ -48,16 +45,17 @@ impl Trail {
     }
 
     /// Records the velocities of a surface that has arrived `seconds` after it left; 0 for one that did not move.
-    pub fn record_arrival(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, seconds: f64) {
+    pub fn record_arrival(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, seconds: f64) {
         let rate = if seconds > 0.0 { (1.0 / seconds) as f32 } else { 0.0 };
-        let upload = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("vertices upload"),
-            contents: &uniform(&structs::Vertices { count: self.vertex_count, rate }),
-            usage: wgpu::BufferUsages::COPY_SRC,
+        if rate != self.last.rate {
+            let buffers = [&self.positions, &self.last_positions, &self.velocities];
+            self.last = Pace::new(device, &self.program, buffers, self.vertex_count, rate);
+        }
+        let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some("velocities of a surface"),
+            timestamp_writes: None,
         });
-        encoder.copy_buffer_to_buffer(&upload, 0, &self.vertices, 0, upload.size());
-        let mut compute = encoder.begin_compute_pass(&Default::default());
-        dispatch(&mut compute, &self.program, &self.group, Kernel::VertexVelocities, self.vertex_count);
+        dispatch(&mut compute, &self.program, &self.last.group, Kernel::VertexVelocities, self.vertex_count);
     }
 
     /// Velocities [m/s], vec4 each, xyz used.
@@ -67,16 +65,38 @@ impl Trail {
 
     /// Bytes on the device.
     pub fn bytes(&self) -> u64 {
-        self.last_positions.size() + self.velocities.size() + self.vertices.size()
+        self.last_positions.size() + self.velocities.size() + VERTICES_BYTES
     }
 }
 
-/// A uniform that says how many vertices there are.
-pub(crate) fn vertices_uniform(device: &wgpu::Device, count: u32) -> wgpu::Buffer {
+impl Pace {
+    /// The vertices of a surface whose positions, last positions and velocities are these buffers.
+    fn new(device: &wgpu::Device, program: &Program, buffers: [&wgpu::Buffer; 3], count: u32, rate: f32) -> Self {
+        let [positions, last_positions, velocities] = buffers;
+        let vertices = vertices_uniform(device, count, rate);
+        let group = program.bind(device, |binding| {
+            let buffer = match binding.name.as_str() {
+                "vertices" => return vertices.as_entire_binding(),
+                "last_positions" => last_positions,
+                "surface_positions" => positions,
+                "surface_velocities" => velocities,
+                other => panic!("a trail has no {other}"),
+            };
+            sized(buffer, 16 * u64::from(count))
+        });
+        Self { rate, group }
+    }
+}
+
+/// Bytes of the vertices' uniform.
+const VERTICES_BYTES: u64 = 8;
+
+/// A uniform that says how many vertices there are, and how many times they move in a second.
+pub(crate) fn vertices_uniform(device: &wgpu::Device, count: u32, rate: f32) -> wgpu::Buffer {
     device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
         label: Some("vertices"),
-        contents: &uniform(&structs::Vertices { count, rate: 0.0 }),
-        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        contents: &uniform(&structs::Vertices { count, rate }),
+        usage: wgpu::BufferUsages::UNIFORM,
     })
 }
 

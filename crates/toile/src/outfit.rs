@@ -236,14 +236,13 @@ impl Outfit {
                 garment.maps.record_over(device, encoder, &[(&seen.surface, self.thickness)]);
             }
             let steps = garment.cloth.settings().steps_per_frame / self.maps_per_frame;
-            let trail = garment.seen.as_ref().map(|seen| &seen.trail);
-            if let Some(trail) = trail {
-                trail.record_leaving(encoder);
+            if let Some(seen) = &garment.seen {
+                seen.trail.record_leaving(encoder);
             }
             garment.cloth.record_steps(device, encoder, 0..steps, steps);
-            if let Some(trail) = trail {
+            if let Some(seen) = &mut garment.seen {
                 // The garment over this one sees it as it is now.
-                trail.record_arrival(device, encoder, interval);
+                seen.trail.record_arrival(device, encoder, interval);
                 garment.cloth.record_normals(encoder);
             }
         }
