@@ -10,6 +10,6 @@ pub use compute::Compute;
 pub use drive::{advance, arrived, finish_frame};
 pub use fixtures::{GARMENTS, SCENES, body, fixture, garment, scene, settings, shapes, sheet_model, sheet_settings};
 pub use gpu::{Gpu, INSTALL_HINT, gpu, lab};
-pub use toile_report::kernels::{Difference, first_difference, vec3_words};
+pub use toile_lab::kernels::{Difference, first_difference, vec3_words};
 pub use toile_report::shapes::without_triangles;
 pub use toile_report::{Layers, Random, read_maps};

@@ -4,7 +4,7 @@ use crate::step_params;
 use encase::{ShaderType, StorageBuffer, UniformBuffer, internal::WriteInto};
 use glam::{Vec3, Vec4};
 use toile_kernels::structs;
-use toile_model::{Attachment, Hold, Limit, Link, MapFrame, Model, SeamPair, ShapeStep, StepSettings, Strand};
+use toile_model::{Attachment, Hold, Limit, Link, MapBox, Model, SeamPair, ShapeStep, StepSettings, Strand};
 use toile_scene::{Displacement, Influence, Polish};
 
 /// Bytes of the buffer of a name that a model and the settings of its step decide; `None` for the others. `after_maps` when shapes are
@@ -127,14 +127,14 @@ encode! {
         spin: shape.spin,
         axis: shape.axis,
     }
-    |frame: MapFrame| MapFrame {
-        origin_x: frame.origin_x,
-        origin_y: frame.origin_y,
-        texel: frame.texel,
-        z_front: frame.z_front,
-        z_back: frame.z_back,
-        columns: frame.columns,
-        rows: frame.rows,
+    |map_box: MapBox| MapBox {
+        origin_x: map_box.origin_x,
+        origin_y: map_box.origin_y,
+        texel: map_box.texel,
+        z_front: map_box.z_front,
+        z_back: map_box.z_back,
+        columns: map_box.columns,
+        rows: map_box.rows,
     }
     |influence: Influence| Influence { joint: influence.joint, weight: influence.weight }
     |displacement: Displacement| Displacement {

@@ -104,7 +104,7 @@ buffers! {
     "quads" Quad Constant;
     "particle_quad_offsets" Listed Constant;
     "particle_quads" Listed Constant;
-    "map_frame" Listed Brought;
+    "map_box" Listed Brought;
     "vertices" Listed Brought;
     "bind_positions" Listed Brought;
     "bind_normals" Listed Brought;

@@ -15,7 +15,7 @@ mod geometry;
 mod lattice;
 mod lines;
 mod long_limits;
-mod map_frame;
+mod map_box;
 mod model;
 mod needs;
 mod open;
@@ -36,7 +36,7 @@ pub use csr::Csr;
 pub use dressing::{Dressing, DressingError, Stage};
 pub use error::ModelError;
 pub use long_limits::{STRAND_PARTICLES_MAX, path_chord};
-pub use map_frame::MapFrame;
+pub use map_box::MapBox;
 pub use model::{
     Attachment, Hold, Limit, Link, Merge, Model, NO_CORNER, PanelMesh, SeamPair, Spring, SpringKind, Strand,
 };

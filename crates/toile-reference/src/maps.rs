@@ -6,7 +6,7 @@ mod skin_body;
 mod vertex_velocities;
 
 use glam::Vec3;
-use toile_model::MapFrame;
+use toile_model::MapBox;
 
 pub use morph_body::morph_body;
 pub use render_maps::{Surface, render_maps, render_maps_in};
@@ -19,7 +19,7 @@ pub use vertex_velocities::vertex_velocities;
 #[derive(Clone, Debug, PartialEq)]
 pub struct BodyMaps {
     /// Where the maps stand in the world.
-    pub frame: MapFrame,
+    pub map_box: MapBox,
     /// Distance from the camera's plane, 0 to 1 of the distance of both planes; 1 where there is nothing.
     pub depth: [Vec<f32>; 2],
     /// Unit normals of the surface, facing the camera; zero where there is nothing.

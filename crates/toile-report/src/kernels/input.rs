@@ -170,7 +170,7 @@ impl Inputs for Input {
             "body_normals" => padded(&self.body.normals, 0.0),
             "last_positions" => padded(&self.body.last_positions, 1.0),
             "surface_velocities" => padded(&self.body.velocities, 0.0),
-            "map_frame" => uniform(&self.layers.read.frame.encode()),
+            "map_box" => uniform(&self.layers.read.map_box.encode()),
             "open_positions" => with_w(&self.open.positions, &self.open.inverse_masses),
             "open_velocities" => with_w(&self.open.velocities, &self.open.masses),
             "position_copies" => with_w(&self.copies.positions, &self.copies.inverse_masses),
