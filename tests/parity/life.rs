@@ -29,7 +29,7 @@ impl Life {
         let mut last = Status::default();
         for _ in 0..frames {
             for _ in 0..self.solver.settings().steps_per_frame {
-                gpu().run(|encoder| self.solver.record_steps(&gpu().device, encoder, 1));
+                gpu().run(|encoder| self.solver.record_steps(&gpu().device, encoder, 0..1, 1));
                 self.reference.step();
                 if let Some(fault) = self.difference() {
                     panic!("{name}: step {} is the first that differs: {fault}", self.solver.step());

@@ -126,7 +126,7 @@ fn a_force_of_the_wrong_sign_is_seen_in_the_first_step() {
     let mut life = Life::new(&model, &settings, None, None);
     let upward = StepSettings { gravity: -settings.gravity, ..settings };
     life.reference = toile_reference::Reference::new(&model, &upward, Default::default());
-    gpu().run(|encoder| life.solver.record_steps(&gpu().device, encoder, 1));
+    gpu().run(|encoder| life.solver.record_steps(&gpu().device, encoder, 0..1, 1));
     life.reference.step();
     assert!(life.difference().is_some_and(|fault| fault.starts_with("positions")));
 }

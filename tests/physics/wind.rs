@@ -35,7 +35,7 @@ impl Run {
     }
 
     fn step(&mut self, count: u32) {
-        gpu().run(|encoder| self.solver.record_steps(&gpu().device, encoder, count));
+        gpu().run(|encoder| self.solver.record_steps(&gpu().device, encoder, 0..count, count));
     }
 
     fn frame(&mut self) {

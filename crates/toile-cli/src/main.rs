@@ -11,6 +11,7 @@ mod output;
 mod pattern;
 mod picture;
 mod progress;
+mod reference_run;
 mod simulate;
 mod steps;
 mod walk;

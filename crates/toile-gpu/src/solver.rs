@@ -6,10 +6,14 @@ use crate::status::StatusReader;
 use crate::timing::{PassTime, Timer};
 use crate::{BodyMaps, GpuError, Pass, Plan, Program};
 use std::collections::BTreeMap;
+use std::ops::Range;
 use toile_kernels::{Kernel, structs};
 use toile_model::{Maps, Merge, Model, Needs, Status, StepSettings};
 use toile_scene::Sphere;
 use wgpu::util::DeviceExt;
+
+/// The buffers whose contents carry over from step to step.
+const STATE: [&str; 6] = ["positions", "velocities", "normals", "contacts", "limit_impulses", "polish_state"];
 
 /// What a cloth collides with.
 #[derive(Clone, Debug, Default)]
@@ -126,26 +130,35 @@ impl Solver {
 
     /// Records one frame: its steps, then normals and status.
     pub fn record_frame(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder) {
-        self.record_steps(device, encoder, self.settings.steps_per_frame);
+        let steps = self.settings.steps_per_frame;
+        self.record_steps(device, encoder, 0..steps, steps);
         self.record_outputs(encoder);
     }
 
-    /// Records steps, at most as many as a frame has. Maps of moving bodies show them as they are at the end of these steps.
+    /// Records the steps `steps` of a map interval of `interval` steps: maps of moving bodies show them as they are at its end. A host may
+    /// stop within an interval and go on later.
     ///
     /// # Panics
-    /// When `count` is larger than the settings' steps per frame.
-    pub fn record_steps(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, count: u32) {
-        assert!(count <= self.settings.steps_per_frame, "a frame has {} steps", self.settings.steps_per_frame);
-        self.record_sphere(device, encoder, count);
-        self.record_lags(device, encoder, count);
+    /// When the steps go beyond the interval, or it has more steps than a frame of the settings.
+    pub fn record_steps(
+        &mut self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        steps: Range<u32>,
+        interval: u32,
+    ) {
+        let most = self.settings.steps_per_frame;
+        assert!(steps.end <= interval && interval <= most, "{steps:?} of {interval} steps, a frame has {most}");
+        self.record_sphere(device, encoder, steps.len() as u32);
+        self.record_lags(device, encoder, steps.clone(), interval);
         let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         let mut last = None;
-        for index in 0..count {
+        for index in 0..steps.len() as u32 {
             for pass in &self.plan.step {
                 self.dispatch(&mut compute, pass, index, &mut last);
             }
         }
-        self.step += u64::from(count);
+        self.step += steps.len() as u64;
     }
 
     /// Records normals and status of the present state.
@@ -183,7 +196,7 @@ impl Solver {
     ) -> Result<BTreeMap<Kernel, PassTime>, GpuError> {
         let mut encoder = device.create_command_encoder(&Default::default());
         self.record_sphere(device, &mut encoder, 1);
-        self.record_lags(device, &mut encoder, 1);
+        self.record_lags(device, &mut encoder, 0..1, 1);
         queue.submit([encoder.finish()]);
         let mut times: BTreeMap<Kernel, PassTime> = BTreeMap::new();
         for pass in &self.plan.step {
@@ -268,7 +281,7 @@ impl Solver {
     }
 
     /// The newest status that has arrived, without waiting; `None` before the first frame is done.
-    pub fn status(&mut self) -> Option<Status> {
+    pub fn status(&self) -> Option<Status> {
         self.status.latest()
     }
 
@@ -296,6 +309,17 @@ impl Solver {
     /// [`Rule::Predictive`](toile_scene::Rule::Predictive) or [`Rule::Hierarchical`](toile_scene::Rule::Hierarchical).
     pub fn limit_impulses(&self) -> Option<&wgpu::Buffer> {
         self.buffers.find("limit_impulses")
+    }
+
+    /// The buffers whose contents carry over from step to step, by name: what a state is.
+    pub fn state(&self) -> impl Iterator<Item = (&'static str, &wgpu::Buffer)> {
+        STATE.iter().filter_map(|name| Some((*name, self.buffers.find(name)?)))
+    }
+
+    /// Goes on from a state that was written into the buffers of [`Solver::state`]: so many steps are done, and this was reported of them.
+    pub fn resume(&mut self, step: u64, status: Option<Status>) {
+        self.step = step;
+        self.status.resume(status);
     }
 
     /// The passes of a step and of a frame.
@@ -372,13 +396,14 @@ impl Solver {
     }
 
     /// Records how long before the time of the maps each of the coming steps begins and ends.
-    fn record_lags(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, count: u32) {
+    fn record_lags(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, steps: Range<u32>, interval: u32) {
         if self.buffers.find("lag").is_none() {
             return;
         }
         let dt = self.settings.dt;
-        let lags = (0..count).map(|index| {
-            uniform_bytes(&structs::Lag { start: (count - index) as f32 * dt, end: (count - index - 1) as f32 * dt })
+        let lags = steps.map(|index| {
+            let left = interval - index;
+            uniform_bytes(&structs::Lag { start: left as f32 * dt, end: (left - 1) as f32 * dt })
         });
         self.record_moving_uniform(device, encoder, "lag", lags);
     }

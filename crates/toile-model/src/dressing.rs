@@ -23,7 +23,7 @@ const DRAPING_DAMPING: f32 = 8.0;
 
 /// What a garment is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stage {
+pub enum DressingStage {
     /// Its seams are being closed, without gravity.
     Sewing,
     /// It is sewn and falls without friction to where it stretches least, its labelled edges still held.
@@ -34,10 +34,15 @@ pub enum Stage {
     Dressed,
 }
 
+impl DressingStage {
+    /// All of them, in their order.
+    const ALL: [Self; 4] = [Self::Sewing, Self::Easing, Self::Draping, Self::Dressed];
+}
+
 /// The way of one garment onto a body.
 #[derive(Clone, Debug)]
 pub struct Dressing {
-    stage: Stage,
+    stage: DressingStage,
     rest_energy: f32,
     dt: f32,
     sewing_steps: u64,
@@ -91,7 +96,7 @@ impl Dressing {
     pub fn new(open: &Model, settings: &StepSettings) -> Self {
         let mass = open.masses.iter().sum::<f32>() / open.particle_count().max(1) as f32;
         Self {
-            stage: if open.seam_pairs.is_empty() { Stage::Draping } else { Stage::Sewing },
+            stage: if open.seam_pairs.is_empty() { DressingStage::Draping } else { DressingStage::Sewing },
             rest_energy: 0.5 * mass * REST_SPEED * REST_SPEED,
             dt: settings.dt,
             sewing_steps: 0,
@@ -102,7 +107,7 @@ impl Dressing {
     }
 
     /// What the garment is doing.
-    pub fn stage(&self) -> Stage {
+    pub fn stage(&self) -> DressingStage {
         self.stage
     }
 
@@ -121,22 +126,36 @@ impl Dressing {
         self.seam_gap
     }
 
-    /// Takes the status at the end of a frame and says what to do next. When [`Stage::Sewing`] becomes
-    /// [`Stage::Easing`] the solver must be handed over to the sewn model before its next step; when that becomes
-    /// [`Stage::Draping`], to the draping settings.
+    /// What a saved state keeps: stage, steps sewn, steps draped, bits of the seam gap, calm frames.
+    pub fn state(&self) -> [u64; 5] {
+        let gap = u64::from(self.seam_gap.to_bits());
+        [self.stage as u64, self.sewing_steps, self.draping_steps, gap, u64::from(self.calm_frames)]
+    }
+
+    /// Goes on from what [`Dressing::state`] gave; `None` when it is none of that.
+    pub fn resumed(self, [stage, sewing_steps, draping_steps, gap, calm_frames]: [u64; 5]) -> Option<Self> {
+        let stage = DressingStage::ALL.into_iter().find(|known| *known as u64 == stage)?;
+        let seam_gap = f32::from_bits(u32::try_from(gap).ok()?);
+        let calm_frames = u32::try_from(calm_frames).ok()?;
+        Some(Self { stage, sewing_steps, draping_steps, seam_gap, calm_frames, ..self })
+    }
+
+    /// Takes the status at the end of a frame and says what to do next. When [`DressingStage::Sewing`] becomes
+    /// [`DressingStage::Easing`] the solver must be handed over to the sewn model before its next step; when that becomes
+    /// [`DressingStage::Draping`], to the draping settings.
     ///
     /// # Errors
     /// [`DressingError`] when the step limit is reached or the state is not finite.
-    pub fn advance(&mut self, status: &Status, particle_count: u32) -> Result<Stage, DressingError> {
+    pub fn advance(&mut self, status: &Status, particle_count: u32) -> Result<DressingStage, DressingError> {
         if let Some(particle) = status.first_non_finite {
             return Err(DressingError::Diverged { step: status.step, particle, count: status.non_finite_count });
         }
         match self.stage {
-            Stage::Sewing => {
+            DressingStage::Sewing => {
                 self.sewing_steps = status.step;
                 self.seam_gap = status.seam_gap_max;
                 if status.seam_gap_max <= SEAM_GAP {
-                    self.stage = Stage::Easing;
+                    self.stage = DressingStage::Easing;
                 } else if self.sewing_steps as f32 * self.dt > SEWING_SECONDS {
                     return Err(DressingError::SeamsOpen {
                         steps: self.sewing_steps,
@@ -145,18 +164,18 @@ impl Dressing {
                     });
                 }
             }
-            Stage::Easing => {
+            DressingStage::Easing => {
                 self.draping_steps = status.step - self.sewing_steps;
                 if self.draping_steps as f32 * self.dt >= EASING_SECONDS {
-                    self.stage = Stage::Draping;
+                    self.stage = DressingStage::Draping;
                 }
             }
-            Stage::Draping => {
+            DressingStage::Draping => {
                 self.draping_steps = status.step - self.sewing_steps;
                 let energy = status.kinetic_energy / particle_count.max(1) as f32;
                 self.calm_frames = if energy <= self.rest_energy { self.calm_frames + 1 } else { 0 };
                 if self.calm_frames >= CALM_FRAMES {
-                    self.stage = Stage::Dressed;
+                    self.stage = DressingStage::Dressed;
                 } else if self.draping_steps as f32 * self.dt > DRAPING_SECONDS {
                     return Err(DressingError::NotAtRest {
                         steps: self.draping_steps,
@@ -165,7 +184,7 @@ impl Dressing {
                     });
                 }
             }
-            Stage::Dressed => {}
+            DressingStage::Dressed => {}
         }
         Ok(self.stage)
     }

@@ -6,12 +6,14 @@ mod assemble;
 mod bending;
 mod colouring;
 mod csr;
+mod digest;
 mod dressing;
 mod elements;
 mod error;
 mod fan;
 mod flat_mesh;
 mod geometry;
+mod inside;
 mod lattice;
 mod lines;
 mod long_limits;
@@ -32,8 +34,10 @@ mod step;
 mod union_find;
 
 pub use csr::Csr;
-pub use dressing::{Dressing, DressingError, Stage};
+pub use digest::digest_of;
+pub use dressing::{Dressing, DressingError, DressingStage};
 pub use error::ModelError;
+pub use inside::Inside;
 pub use long_limits::{STRAND_PARTICLES_MAX, path_chord};
 pub use map_frame::MapFrame;
 pub use model::{

@@ -1,7 +1,9 @@
 //! What a solver reports of its state.
 
+use serde::{Deserialize, Serialize};
+
 /// What a solver reports of its state at the end of a frame.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Status {
     /// Steps done so far.
     pub step: u64,

@@ -98,6 +98,20 @@ impl StepSettings {
 }
 
 impl StepSettings {
+    /// Most steps of a frame. The default rule has 16 at 60 frames per second and 960 at one; a rule that leaves the tension to stiff springs
+    /// has hundreds on fine cloth. More of them are a slip in a scene, which must not ask for years.
+    pub const STEPS_PER_FRAME_MAX: u32 = 10_000;
+
+    /// The same frame in so many more steps that it has a multiple of `parts`.
+    pub fn in_parts(&self, parts: u32) -> Self {
+        let steps_per_frame = self.steps_per_frame.next_multiple_of(parts);
+        if steps_per_frame == self.steps_per_frame {
+            return self.clone();
+        }
+        let frame = f64::from(self.dt) * f64::from(self.steps_per_frame);
+        Self { dt: (frame / f64::from(steps_per_frame)) as f32, steps_per_frame, ..self.clone() }
+    }
+
     /// The part of [`Self::push_speed`] that each of the sweeps has [m/s]; further sweeps have as much each.
     pub fn push_speed_per_sweep(&self) -> f32 {
         self.push_speed / self.sweeps.max(1) as f32

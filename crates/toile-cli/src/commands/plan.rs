@@ -3,7 +3,7 @@
 use crate::args::PlanOf;
 use crate::commands::{outfit, print};
 use crate::pattern::{self, Pattern};
-use crate::simulate::{check_bodies, sphere};
+use crate::simulate::sphere;
 use crate::steps::step_settings;
 use anyhow::Result;
 use glam::Vec3;
@@ -82,7 +82,6 @@ struct KernelPlan {
 
 /// The plans of all cloths; a garment has one for sewing and one for draping.
 fn plans(scene: &Scene, patterns: &[Pattern]) -> Result<Vec<ClothPlan>> {
-    check_bodies(scene)?;
     let sphere = sphere(scene)?.is_some();
     let mut bounds = bounds(scene);
     let mut plans = Vec::new();

@@ -52,11 +52,11 @@ impl Exact {
 }
 
 impl Surfaces {
-    /// The bodies of a scene; cloth keeps `thickness` [m] from them and from garments below it.
-    pub fn new(bodies: &[Body], thickness: f64) -> Self {
+    /// The bodies of a scene as they stand at a time [s]; cloth keeps `thickness` [m] from them and from garments below it.
+    pub fn new(bodies: &[Body], thickness: f64, time: f64) -> Self {
         let exact = |body: &Body| match body {
             Body::Mesh(mesh) => Exact::Mesh(Box::new(ExactDistance::new(mesh))),
-            Body::Moving(body) => Exact::Mesh(Box::new(ExactDistance::new(&body.mesh))),
+            Body::Moving(body) => Exact::Mesh(Box::new(ExactDistance::new(&body.at(time)))),
             Body::Sphere(sphere) => Exact::Sphere(sphere.clone()),
         };
         Self { thickness, bodies: bodies.iter().map(exact).collect(), garments: Vec::new() }
