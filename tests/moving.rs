@@ -3,11 +3,14 @@
 use glam::{DQuat, DVec3, Vec3, vec3};
 use toile::{MovingFrame, Outfit};
 use toile_gpu::MovingBody;
+use toile_lab::fixtures::{fixture, scene, sheet_model};
+use toile_lab::kernels::{first_difference, vec3_words};
+use toile_lab::{Layers, read_maps};
 use toile_model::{MapFrame, Model, StepSettings};
 use toile_reference::maps::{BodyMaps, Surface, render_maps_in, skin_body, vertex_velocities};
 use toile_reference::{Colliders, Reference};
 use toile_scene::{Cloth, Mesh, Motion, MovingMesh, RigidKey, Rule, Scene, VelocityModification};
-use toile_workspace::{Layers, first_difference, fixture, gpu, read_maps, scene, sheet_model, vec3_words};
+use toile_workspace::gpu;
 
 fn walking(clip: &str) -> MovingMesh {
     let options = toile::files::BodyOptions { clip: Some(clip.to_owned()), ..Default::default() };

@@ -3,9 +3,9 @@
 use glam::Vec3;
 use std::collections::BTreeMap;
 use toile_kernels::Kernel;
+use toile_lab::kernels::Input;
 use toile_model::{NO_CORNER, StepSettings};
 use toile_reference::{Contact, Probe};
-use toile_report::kernels::Input;
 
 /// How many items went into each branch.
 pub type Seen = BTreeMap<&'static str, usize>;

@@ -3,9 +3,9 @@
 use crate::kernels::{difference, input};
 use glam::{Vec2, Vec3, vec3};
 use toile_kernels::Kernel;
+use toile_lab::Random;
+use toile_lab::kernels::{Compiled, Input, Variant};
 use toile_model::Strand;
-use toile_report::Random;
-use toile_report::kernels::{Compiled, Input, Variant};
 use toile_workspace::gpu;
 
 fn agrees(kernel: Kernel, input: &Input) {

@@ -3,7 +3,7 @@
 use crate::kernels::{difference, input};
 use std::collections::BTreeMap;
 use toile_kernels::{Kernel, TABLE};
-use toile_report::kernels::{Compiled, VARIANTS};
+use toile_lab::kernels::{Compiled, VARIANTS};
 use toile_workspace::gpu;
 
 /// Lines that a flipped sign does not break on these inputs, each with its reason.

@@ -1,9 +1,10 @@
 //! Which rules stay bounded on the hanging sheet over 2 s, and how a run that diverges ends.
 
 use toile::{Cloth, Error};
+use toile_lab::fixtures::{scene, sheet_model};
 use toile_model::{Limit, StepSettings};
 use toile_scene::{Rule, Threshold, VelocityModification};
-use toile_workspace::{advance, gpu, scene, sheet_model};
+use toile_workspace::{advance, gpu};
 
 const FRAMES: u32 = 120;
 

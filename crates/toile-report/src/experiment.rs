@@ -1,7 +1,7 @@
 //! One section of the report, before it is measured.
 
 use crate::page::Section;
-use crate::{Lab, LabError, Scale};
+use toile_lab::{Lab, LabError, Scale};
 
 /// One section of the report, before it is measured.
 #[derive(Clone, Copy, Debug)]

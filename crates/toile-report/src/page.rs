@@ -15,8 +15,8 @@ pub use markdown::markdown;
 pub use number::three_digits;
 pub use svg::{inline, standalone};
 
-use crate::Scale;
 use serde::{Deserialize, Serialize};
+use toile_lab::Scale;
 
 /// Everything that a run of the experiments found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -5,10 +5,11 @@ mod broken;
 mod cloth;
 mod rest;
 
+use crate::Experiment;
 use crate::page::{Block, Cell, Section, Table};
-use crate::{Experiment, Lab, LabError, Run};
 use toile::Colliders;
 use toile::model::{Model, StepSettings};
+use toile_lab::{Lab, LabError, Run};
 
 /// The row of the table.
 pub const EXPERIMENT: Experiment = Experiment { name: "hard_cases", title: "Hard cases", minutes: [0.3, 1.5], run };

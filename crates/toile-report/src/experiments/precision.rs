@@ -10,8 +10,9 @@ pub use maps::{Coding, MapError, Offset, Probing, Shell, map_error, velocity_err
 pub use position::{Scene, rest_error};
 pub use refinement::shape_errors;
 
+use crate::Experiment;
 use crate::page::{Block, Section};
-use crate::{Experiment, Lab, LabError};
+use toile_lab::{Lab, LabError};
 
 /// The row of the table.
 pub const EXPERIMENT: Experiment =

@@ -1,11 +1,12 @@
 //! Stability atlas: the largest stable step.
 
-use crate::fixtures::{ball, hanging_sheet};
+use crate::Experiment;
 use crate::page::{Axis, Block, Cell, Plot, Section, Series, SeriesStyle, Table};
-use crate::{Experiment, Lab, LabError};
 use std::f64::consts::PI;
 use toile::model::{Model, StepSettings};
 use toile::scene::{Rule, SphereMotion, VelocityModification};
+use toile_lab::scenes::{ball, hanging_sheet};
+use toile_lab::{Lab, LabError};
 use toile_reference::{Colliders, Reference};
 
 /// The row of the table.

@@ -6,9 +6,10 @@ mod trial;
 pub use term::{Scene, Term};
 pub use trial::{Outcome, Trial, outcome};
 
-use crate::distance::Distance;
+use crate::Experiment;
 use crate::page::{Block, Cell, Section, Table};
-use crate::{Experiment, Lab, LabError};
+use toile_lab::Distance;
+use toile_lab::{Lab, LabError};
 
 /// The row of the table.
 pub const EXPERIMENT: Experiment =

@@ -6,8 +6,9 @@ pub mod friction;
 pub mod hanging;
 pub mod laws;
 
+use crate::Experiment;
 use crate::page::Section;
-use crate::{Experiment, Lab, LabError};
+use toile_lab::{Lab, LabError};
 
 /// The row of the table.
 pub const EXPERIMENT: Experiment =

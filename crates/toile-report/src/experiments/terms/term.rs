@@ -1,9 +1,9 @@
 //! The terms of the model that can be left out, and the number that each is there for.
 
 use crate::experiments::terms::{Outcome, Trial};
-use crate::fixtures::ball;
 use glam::DVec3;
 use toile::model::NO_CORNER;
+use toile_lab::scenes::ball;
 
 /// A scene of the experiment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

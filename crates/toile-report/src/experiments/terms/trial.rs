@@ -1,14 +1,14 @@
 //! A scene as it is, or with one term changed.
 
 use crate::experiments::terms::{Scene, Term};
-use crate::fixtures::{ball, fabric, hanging_sheet, square};
-use crate::{Lab, LabError, Run};
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
 use toile::Colliders;
 use toile::gpu::{BodyMaps, Surface};
 use toile::model::{Csr, MapFrame, Model, StepSettings};
 use toile::scene::{Friction, Mesh, Rule, Settings, Sphere, SphereMotion, VelocityModification, Wind};
+use toile_lab::scenes::{ball, fabric, hanging_sheet, square};
+use toile_lab::{Lab, LabError, Run};
 
 /// Edge length of the texels of the moving sphere [m].
 const TEXEL: f32 = 0.01;

@@ -1,6 +1,6 @@
 //! Bodies as the maps show them, on the device and for the reference.
 
-use super::Gpu;
+use crate::Gpu;
 use glam::Vec3;
 use std::sync::Arc;
 use toile::gpu::{BodyMaps, GpuError, Surface, readback};

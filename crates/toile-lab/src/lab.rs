@@ -1,18 +1,6 @@
 //! What every experiment is given: a device, a scale, a seed, and a way to say how far it is.
 
-mod gpu;
-mod layers;
-mod random;
-mod run;
-mod settle;
-pub mod shapes;
-
-pub use gpu::Gpu;
-pub use layers::{Layers, read_maps};
-pub use random::Random;
-pub use run::{Run, StepCost};
-pub use settle::settled;
-
+use crate::Gpu;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use thiserror::Error;

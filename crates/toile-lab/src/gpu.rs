@@ -4,6 +4,10 @@ use glam::{Vec3, Vec4};
 use toile::gpu::{GpuError, readback};
 use wgpu::util::DeviceExt;
 
+/// What to do where there is no adapter.
+pub const INSTALL_HINT: &str = "the GPU tests need a Vulkan adapter; on Debian or Ubuntu \
+    `apt-get install -y mesa-vulkan-drivers libvulkan1` brings one that works on the CPU";
+
 /// A device with its queue.
 #[derive(Clone, Debug)]
 pub struct Gpu {

@@ -127,7 +127,7 @@ impl Network {
 #[cfg(test)]
 mod tests {
     use super::Network;
-    use crate::fixtures::hanging_sheet;
+    use crate::scenes::hanging_sheet;
     use toile::model::{Model, StepSettings};
     use toile::scene::{Rule, VelocityModification};
 

@@ -1,9 +1,9 @@
 //! The fixtures, read as the program reads them.
 
 use std::path::PathBuf;
-use toile_files::{BodyOptions, read_body, read_garment, read_scene};
-use toile_model::Model;
-use toile_scene::{Body, Cloth, Fabric, Garment, Mesh, Scene, Settings, Sphere};
+use toile::files::{BodyOptions, read_body, read_garment, read_scene};
+use toile::model::Model;
+use toile::scene::{Body, Cloth, Fabric, Garment, Mesh, Scene, Settings, Sphere};
 
 /// Names of the scenes in `fixtures/scenes`.
 pub const SCENES: [&str; 3] = ["hang", "ball", "moving-ball"];
@@ -13,7 +13,7 @@ pub const GARMENTS: [&str; 5] = ["dress", "shirt_sleeveless", "shirt_sleeves", "
 
 /// A path below `fixtures`.
 pub fn fixture(path: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(path)
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../fixtures").join(path)
 }
 
 /// A scene by name, with some keys set.
