@@ -1,8 +1,8 @@
 //! The arrays that follow from springs and quads: links, limits, colours, rows of quads.
 
-use crate::colouring::{Pair, sort_by_colour};
-use crate::geometry::corners;
-use crate::soften::soften;
+use crate::cloth::colouring::{Pair, sort_by_colour};
+use crate::cloth::soften::soften;
+use crate::mesh::geometry::corners;
 use crate::{Csr, Limit, Link, Model, Spring, SpringKind};
 use toile_scene::Rule;
 

@@ -1,12 +1,9 @@
 //! The immutable arrays that a solver reads.
 
-use crate::Csr;
+use crate::{Csr, NO_CORNER};
 use glam::{Vec2, Vec3};
 use std::ops::Range;
 use toile_scene::{Rule, Threshold};
-
-/// Fourth corner of a quad that is a triangle.
-pub const NO_CORNER: u32 = u32::MAX;
 
 /// One piece of cloth as the solvers read it. Immutable.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -1,7 +1,7 @@
 //! The mesh of one flat panel.
 
-use crate::geometry::{angle_range, corners};
-use crate::outline::Outline;
+use crate::mesh::geometry::{angle_range, corners};
+use crate::mesh::outline::Outline;
 use glam::DVec2;
 
 /// The mesh of one flat panel.

@@ -1,7 +1,7 @@
 //! The numbers of one step, and the largest step that is stable.
 
 use crate::Model;
-use crate::assemble::aim;
+use crate::cloth::aim;
 use glam::Vec3;
 use toile_scene::{Friction, Polish, Rule, Settings, VelocityModification, Wind};
 

@@ -1,8 +1,8 @@
 //! Particles along the outlines: the same number on both sides of a seam.
 
 use crate::ModelError;
-use crate::geometry::{segment_distance, signed_area};
-use crate::rectangle::{Rectangle, rectangle_of};
+use crate::mesh::geometry::{segment_distance, signed_area};
+use crate::mesh::rectangle::{Rectangle, rectangle_of};
 use crate::union_find::UnionFind;
 use glam::DVec2;
 use toile_scene::{Garment, Panel};

@@ -1,8 +1,8 @@
 //! Lines of cloth that go straight on from particle to particle, across closed seams too.
 
-use crate::elements::{Side, sectors, sides};
-use crate::fan::opposite_neighbours;
-use crate::geometry::corners;
+use crate::mesh::elements::{Side, sectors, sides};
+use crate::mesh::fan::opposite_neighbours;
+use crate::mesh::geometry::corners;
 use crate::{Csr, NO_CORNER, PanelMesh};
 use glam::DVec2;
 use std::collections::HashSet;

@@ -1,7 +1,7 @@
 //! Limits that span many cells: what one of them holds, a sweep over single springs would take a sweep per cell to hold.
 
-use crate::assemble::{aim, stretched};
-use crate::lines::{Cloth, Line};
+use crate::cloth::assemble::{aim, stretched};
+use crate::cloth::lines::{Cloth, Line};
 use crate::{Attachment, Csr, Limit, Model, Strand};
 use glam::DVec2;
 use std::ops::Range;

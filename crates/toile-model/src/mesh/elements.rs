@@ -1,8 +1,8 @@
 //! Who is next to whom in a mesh of quads and triangles.
 
 use crate::Csr;
-use crate::fan::Sector;
-use crate::geometry::{corners, inner_angle};
+use crate::mesh::fan::Sector;
+use crate::mesh::geometry::{corners, inner_angle};
 use glam::DVec2;
 
 /// One side of an element.

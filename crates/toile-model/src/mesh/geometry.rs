@@ -1,7 +1,9 @@
 //! Lengths, areas and angles in the flat panel.
 
-use crate::NO_CORNER;
 use glam::DVec2;
+
+/// Fourth corner of a quad that is a triangle.
+pub const NO_CORNER: u32 = u32::MAX;
 
 /// Signed area [m²] of a closed loop: positive when it is counter-clockwise.
 pub(crate) fn signed_area(points: impl Iterator<Item = DVec2> + Clone) -> f64 {

@@ -1,10 +1,10 @@
 //! The sewn model: the particles of each seam pair are one.
 
-use crate::elements::{Side, sectors, sides};
-use crate::fan::opposite_neighbours;
-use crate::flat_mesh::smallest_first;
-use crate::geometry::corners;
-use crate::lines::Cloth;
+use crate::cloth::lines::Cloth;
+use crate::mesh::elements::{Side, sectors, sides};
+use crate::mesh::fan::opposite_neighbours;
+use crate::mesh::flat_mesh::smallest_first;
+use crate::mesh::geometry::corners;
 use crate::union_find::UnionFind;
 use crate::{Csr, Hold, Merge, Model, PanelMesh, Spring, SpringKind};
 use glam::{DVec2, DVec3};

@@ -1,14 +1,13 @@
 //! The open model: sheets as grids, panels where they are placed, seams not yet closed.
 
-use crate::flat_mesh::FlatMesh;
-use crate::geometry::{angle_range, corners, element_area, signed_area};
-use crate::lines::Cloth;
-use crate::outline::outlines;
-use crate::seams::seam_pairs;
-use crate::soften::step_wanted;
-use crate::springs::{Role, panel_springs};
+use crate::cloth::lines::Cloth;
+use crate::cloth::seams::seam_pairs;
+use crate::cloth::soften::step_wanted;
+use crate::cloth::springs::{Role, panel_springs};
+use crate::mesh::geometry::{corners, element_area, signed_area};
+use crate::mesh::panel_meshes;
 use crate::union_find::UnionFind;
-use crate::{Hold, Model, ModelError, PanelMesh, Spring, SpringKind, rectangle, rim};
+use crate::{Hold, Model, ModelError, PanelMesh, Spring, SpringKind};
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
 use toile_scene::{Garment, Rule, Settings, Sheet};
@@ -200,38 +199,6 @@ fn check_size(garment: &Garment, spacing: f64) -> Result<(), ModelError> {
         });
     }
     Ok(())
-}
-
-/// The mesh of each panel.
-fn panel_meshes(garment: &Garment, spacing: f64) -> Result<Vec<FlatMesh>, ModelError> {
-    let outlines = outlines(garment, spacing)?;
-    garment
-        .panels
-        .iter()
-        .zip(&outlines)
-        .map(|(panel, outline)| {
-            rectangle::grid(outline)
-                .or_else(|| rim::mesh(outline, spacing))
-                .filter(|mesh| is_valid(mesh, outline.points.iter().copied()))
-                .ok_or_else(|| ModelError::Mesh { panel: panel.name.clone(), spacing })
-        })
-        .collect()
-}
-
-/// Whether no element is inverted, every particle is used and the elements cover the outline exactly.
-fn is_valid(mesh: &FlatMesh, outline: impl Iterator<Item = DVec2> + Clone) -> bool {
-    let mut used = vec![false; mesh.points.len()];
-    let mut area = 0.0;
-    for element in &mesh.elements {
-        let [low, high] = angle_range(element, &mesh.points);
-        if !(low > 0.0 && high < 180.0) {
-            return false;
-        }
-        area += element_area(element, &mesh.points);
-        corners(element).iter().for_each(|&i| used[i as usize] = true);
-    }
-    let wanted = signed_area(outline).abs();
-    used.iter().all(|&u| u) && (area - wanted).abs() <= 1e-9 * wanted
 }
 
 /// One hold for each label, and the particles of all of them. A particle between two labels is held by the first.

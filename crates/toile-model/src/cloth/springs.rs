@@ -1,9 +1,9 @@
 //! Springs of flat panels. D §3: structural, shear and bend (the papers' flexion).
 
 use crate::SpringKind;
-use crate::elements::{sectors, sides};
-use crate::fan::opposite_neighbours;
-use crate::geometry::corners;
+use crate::mesh::elements::{sectors, sides};
+use crate::mesh::fan::opposite_neighbours;
+use crate::mesh::geometry::corners;
 use glam::DVec2;
 
 /// A spring before it has a stiffness.

@@ -2,7 +2,7 @@
 
 use crate::Csr;
 use crate::NO_CORNER;
-use crate::geometry::{angle_range, corners};
+use crate::mesh::geometry::{angle_range, corners};
 use glam::DVec2;
 
 /// Elements whose smallest angle is above this are good enough [degrees].

@@ -1,54 +1,11 @@
-//! Rectangular panels: the l × n grid of D §3.
+//! Meshes of rectangular panels: the l × n grid of D §3.
 
-use crate::flat_mesh::FlatMesh;
-use crate::geometry::angle_range;
-use crate::outline::Outline;
-use toile_scene::{Curve, Panel};
-
-/// Largest deviation of a corner from 90° and of a side from a straight line [degrees]: what rounding a pattern to
-/// tenths of a millimetre leaves.
-const ANGLE_TOLERANCE: f64 = 0.5;
-
-/// The sides of a rectangular panel.
-#[derive(Clone, Debug)]
-pub(crate) struct Rectangle {
-    edge_count: usize,
-    /// First edge of each side, in loop order.
-    firsts: [usize; 4],
-}
-
-impl Rectangle {
-    /// Edges of one side, in loop order.
-    pub(crate) fn edges(&self, side: usize) -> Vec<usize> {
-        let (first, next) = (self.firsts[side], self.firsts[(side + 1) % 4]);
-        let count = (next + self.edge_count - first) % self.edge_count;
-        (0..count).map(|k| (first + k) % self.edge_count).collect()
-    }
-}
-
-/// The sides of a panel whose outline is a rectangle of straight edges, in any position.
-pub(crate) fn rectangle_of(panel: &Panel) -> Option<Rectangle> {
-    let count = panel.edges.len();
-    if panel.edges.iter().any(|e| e.curve != Curve::Straight) {
-        return None;
-    }
-    let along = |e: usize| panel.edges[(e + 1) % count].start - panel.edges[e % count].start;
-    let mut firsts = Vec::new();
-    for edge in 0..count {
-        let turn = along(edge + count - 1).angle_to(along(edge)).to_degrees().abs();
-        let [corner, straight] = [90.0, 0.0].map(|angle| (turn - angle).abs() < ANGLE_TOLERANCE);
-        if corner {
-            firsts.push(edge);
-        } else if !straight {
-            return None;
-        }
-    }
-    let firsts = firsts.try_into().ok()?;
-    Some(Rectangle { edge_count: count, firsts })
-}
+use crate::mesh::flat_mesh::FlatMesh;
+use crate::mesh::geometry::angle_range;
+use crate::mesh::outline::Outline;
 
 /// The grid of a rectangular panel whose opposite sides have the same number of particles.
-pub(crate) fn grid(outline: &Outline) -> Option<FlatMesh> {
+pub(crate) fn mesh(outline: &Outline) -> Option<FlatMesh> {
     let rectangle = outline.rectangle.as_ref()?;
     let sides: [Vec<u32>; 4] = std::array::from_fn(|side| {
         let mut particles: Vec<u32> = Vec::new();

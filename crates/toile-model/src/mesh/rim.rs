@@ -1,11 +1,11 @@
 //! The irregular part of a panel: triangles and quads between the outline and the lattice.
 
 use crate::NO_CORNER;
-use crate::flat_mesh::FlatMesh;
-use crate::geometry::angle_range;
-use crate::lattice::Lattice;
-use crate::outline::Outline;
-use crate::smoothing::smooth;
+use crate::mesh::flat_mesh::FlatMesh;
+use crate::mesh::geometry::angle_range;
+use crate::mesh::lattice::Lattice;
+use crate::mesh::outline::Outline;
+use crate::mesh::smoothing::smooth;
 use glam::DVec2;
 use spade::handles::FixedFaceHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};

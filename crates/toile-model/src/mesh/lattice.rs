@@ -1,6 +1,6 @@
 //! The regular part of a panel: a lattice along warp and weft, away from the outline.
 
-use crate::geometry::segment_distance;
+use crate::mesh::geometry::segment_distance;
 use glam::DVec2;
 
 /// Smallest distance of a lattice particle from the outline, in lattice steps. Above a half, so that no side of a cell
