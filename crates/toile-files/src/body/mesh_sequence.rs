@@ -1,10 +1,11 @@
 //! Bodies that move: a folder of OBJ files, one per frame.
 
+use crate::body::moving_body::MovingBodyFile;
+use crate::body::obj;
+use crate::body::soup::{Cleaned, Soup};
 use crate::body::{BodyOptions, check_height};
 use crate::error::{Fault, FileError, Found, Place};
-use crate::moving_body::MovingBodyFile;
-use crate::soup::{Cleaned, Soup};
-use crate::{obj, source};
+use crate::source;
 use glam::{DVec3, Vec3};
 use std::path::{Path, PathBuf};
 use toile_scene::{Mesh, MeshSequence, Motion, MovingMesh};

@@ -1,7 +1,7 @@
 //! Meshes as one GLB file.
 
 use crate::error::{FileError, Found, Place};
-use crate::write::{check_finite, write_atomically};
+use crate::out::write::{check_finite, write_atomically};
 use glam::Vec3;
 use serde_json::{Value, json};
 use std::path::Path;

@@ -1,9 +1,10 @@
 //! Bodies that move: from glTF and GLB files with a clip, or from a folder of OBJ files.
 
+use crate::body::gltf_body;
+use crate::body::gltf_rig::ClipChoice;
 use crate::body::{BodyOptions, check_height};
 use crate::error::{Fault, FileError, Found};
-use crate::gltf_rig::ClipChoice;
-use crate::{gltf_body, source};
+use crate::source;
 use std::path::Path;
 use toile_scene::{Motion, MovingMesh};
 

@@ -1,7 +1,7 @@
 //! The nodes, joints and clips of a glTF file as a rig.
 
+use crate::body::gltf_file::{GltfFile, check_most};
 use crate::error::{Fault, Found, Place};
-use crate::gltf_file::{GltfFile, check_most};
 use glam::{DMat4, DQuat, DVec3, Mat4, Quat, Vec3};
 use gltf::accessor::Dimensions;
 use gltf::animation::Property;

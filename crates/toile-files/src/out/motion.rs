@@ -1,7 +1,7 @@
 //! The motion of garments as files that Blender and Houdini open: USD text and PC2 point caches.
 
 use crate::error::{Fault, FileError, Found};
-use crate::write::temporary_beside;
+use crate::out::write::temporary_beside;
 use glam::Vec3;
 use std::io::{BufWriter, Write};
 use std::path::Path;

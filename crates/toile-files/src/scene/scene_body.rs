@@ -1,13 +1,13 @@
 //! Bodies of a scene file, at rest and moving.
 
+use crate::body::gltf_rig::DURATION_MAX;
+use crate::body::mesh_sequence::read_mesh_sequence;
+use crate::body::moving_body::read_moving_body;
 use crate::body::{BodyOptions, read_body};
 use crate::error::Found;
-use crate::fabric::Problem;
-use crate::gltf_rig::DURATION_MAX;
-use crate::mesh_sequence::read_mesh_sequence;
-use crate::moving_body::read_moving_body;
-use crate::scene::{SIZES, vector, within, wrong};
-use crate::scene_toml::{BodyToml, KeyToml, SphereToml, UnitsToml};
+use crate::scene::problem::Problem;
+use crate::scene::scene_toml::{BodyToml, KeyToml, SphereToml, UnitsToml};
+use crate::scene::value::{SIZES, vector, within, wrong};
 use glam::{DQuat, DVec3};
 use std::path::Path;
 use toile_scene::{Body, MovingMesh, RigidKey, RigidMotion, Settings, Sphere, SphereMotion};

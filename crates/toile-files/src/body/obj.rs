@@ -1,7 +1,7 @@
 //! Wavefront OBJ: vertices, normals and polygons; everything else in the file is passed over.
 
+use crate::body::soup::Soup;
 use crate::error::{Fault, Found, Place};
-use crate::soup::Soup;
 use glam::DVec3;
 
 /// Reads OBJ text. Positions stay in the file's unit.

@@ -1,8 +1,8 @@
 //! PLY, ASCII and binary: the elements `vertex` and `face`; other elements and properties are passed over.
 
+use crate::body::ply_header::{Element, Encoding, Header, Property, Scalar};
+use crate::body::soup::Soup;
 use crate::error::{Fault, Found, Place};
-use crate::ply_header::{Element, Encoding, Header, Property, Scalar};
-use crate::soup::Soup;
 use glam::DVec3;
 
 /// Reads a PLY file. Positions stay in the file's unit.

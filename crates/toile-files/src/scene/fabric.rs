@@ -1,9 +1,11 @@
 //! Fabrics from TOML.
 
 use crate::error::{Fault, FileError, Found, Place};
-use crate::scene::{within, wrong};
-use crate::scene_toml::{FabricTable, FabricToml, ThresholdTable, ThresholdToml};
-use crate::{source, toml_text};
+use crate::scene::problem::Problem;
+use crate::scene::scene_toml::{FabricTable, FabricToml, ThresholdTable, ThresholdToml};
+use crate::scene::toml_text;
+use crate::scene::value::{within, wrong};
+use crate::source;
 use std::ops::RangeInclusive;
 use std::path::Path;
 use toile_scene::{Fabric, Threshold};
@@ -33,33 +35,6 @@ fn read_file(path: &Path, depth: usize) -> Result<Fabric, FileError> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     fill(table, folder, &stem, "", depth).map_err(|problem| problem.in_file(path))
-}
-
-/// A fault in the file at hand, or in another one that it names.
-pub(crate) enum Problem {
-    Here(Found),
-    There(FileError),
-}
-
-impl Problem {
-    pub fn in_file(self, path: &Path) -> FileError {
-        match self {
-            Self::Here(found) => found.in_file(path),
-            Self::There(error) => error,
-        }
-    }
-}
-
-impl From<Found> for Problem {
-    fn from(found: Found) -> Self {
-        Self::Here(found)
-    }
-}
-
-impl From<FileError> for Problem {
-    fn from(error: FileError) -> Self {
-        Self::There(error)
-    }
 }
 
 /// The fabric of a scene; files lie relative to the folder.

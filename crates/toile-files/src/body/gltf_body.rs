@@ -1,9 +1,9 @@
 //! The surface of a posed glTF file: every mesh of the scene, bent by its joints, and how it hangs on them.
 
+use crate::body::gltf_file::{GltfFile, check_most};
+use crate::body::gltf_rig::{ClipChoice, Hanging, Skeleton};
+use crate::body::soup::{Cleaned, Soup};
 use crate::error::{Fault, Found, Place};
-use crate::gltf_file::{GltfFile, check_most};
-use crate::gltf_rig::{ClipChoice, Hanging, Skeleton};
-use crate::soup::{Cleaned, Soup};
 use glam::{DMat4, Vec3};
 use gltf::Semantic;
 use gltf::accessor::Dimensions;
