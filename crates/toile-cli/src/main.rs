@@ -12,6 +12,7 @@ mod pattern;
 mod picture;
 mod progress;
 mod simulate;
+mod stdout;
 mod steps;
 mod walk;
 mod worn;

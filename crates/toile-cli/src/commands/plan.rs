@@ -1,9 +1,10 @@
 //! `toile plan`: what a scene gets, without an adapter.
 
 use crate::args::PlanOf;
-use crate::commands::{outfit, print};
+use crate::commands::outfit;
 use crate::pattern::{self, Pattern};
 use crate::simulate::{check_bodies, sphere};
+use crate::stdout::print;
 use crate::steps::step_settings;
 use anyhow::Result;
 use glam::Vec3;

@@ -2,9 +2,9 @@
 
 use crate::adapter;
 use crate::args::ReportOf;
-use crate::commands::print;
 use crate::interrupt::{self, Interrupted};
 use crate::output;
+use crate::stdout::print;
 use anyhow::{Context, Result};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fs;
