@@ -21,4 +21,9 @@ impl Experiment {
     pub fn minutes_at(&self, scale: Scale) -> f64 {
         self.minutes[usize::from(scale == Scale::Full)]
     }
+
+    /// Its section, without any block yet.
+    pub fn section(&self, lead: impl Into<String>) -> Section {
+        Section { name: self.name.to_owned(), title: self.title.to_owned(), lead: lead.into(), blocks: Vec::new() }
+    }
 }

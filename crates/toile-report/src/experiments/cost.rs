@@ -105,7 +105,7 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
          their own, small sheets cost more per particle, and the exponent is below 1.",
         told.join("; ")
     );
-    let mut section = Section::new(&EXPERIMENT, lead);
+    let mut section = EXPERIMENT.section(lead);
     let plot = Plot { caption, x: Axis::log("particles", ""), y: Axis::log("time of a step", "ms"), series };
     section.blocks = vec![Block::Plot(plot), Block::Table(table)];
     Ok(section)

@@ -193,7 +193,7 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
         times[1] / times[0],
         last / first
     );
-    let mut section = Section::new(&EXPERIMENT, lead);
+    let mut section = EXPERIMENT.section(lead);
     section.blocks = vec![Block::Table(table), Block::Plot(plot), Block::Table(costs)];
     Ok(section)
 }

@@ -120,7 +120,7 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
         y: Axis::log("words", ""),
         series: vec![Series::new("words", SeriesStyle::Marks, bars)],
     };
-    let mut section = Section::new(&EXPERIMENT, lead);
+    let mut section = EXPERIMENT.section(lead);
     section.blocks = vec![Block::Table(table), Block::Plot(plot)];
     Ok(section)
 }

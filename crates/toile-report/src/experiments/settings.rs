@@ -104,7 +104,7 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
          the cloth.",
         told.join("; ")
     );
-    let mut section = Section::new(&EXPERIMENT, lead);
+    let mut section = EXPERIMENT.section(lead);
     section.blocks = vec![Block::Table(table)];
     Ok(section)
 }

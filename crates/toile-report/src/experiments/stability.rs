@@ -215,7 +215,7 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
         "The largest step that each rule survives, beside eq. 4 of D and our bound. Eq. 4 is not safe in {papers_fail} of {count} corners, our bound in {ours_fail}: a \
          rule that is unstable by itself has no safe step."
     );
-    let mut section = Section::new(&EXPERIMENT, lead);
+    let mut section = EXPERIMENT.section(lead);
     section.blocks = vec![Block::Plot(plot), Block::Table(table)];
     Ok(section)
 }

@@ -1,5 +1,6 @@
 //! What each term of the model costs, and what it buys: the same scene with it and without.
 
+mod purpose;
 mod term;
 mod trial;
 
@@ -62,7 +63,7 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
     }
     let lead = "Model only what a scene needs: a term that is left out has no pass and no buffer. What each costs in a step, how far the cloth \
                 ends from where it would with it, and the one number that the term is there for.";
-    let mut section = Section::new(&EXPERIMENT, lead);
+    let mut section = EXPERIMENT.section(lead);
     section.blocks = vec![Block::Table(table)];
     Ok(section)
 }

@@ -1,6 +1,6 @@
 //! Bodies that are hard: already inside the cloth, or faster than it.
 
-use super::{Case, Outcome, course};
+use super::case::{Case, Outcome, course};
 use glam::{DQuat, DVec3, Vec3};
 use toile::Colliders;
 use toile::model::{Model, StepSettings};

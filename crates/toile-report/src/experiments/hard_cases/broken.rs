@@ -1,6 +1,6 @@
 //! A number that is none, in one particle.
 
-use super::{Case, Outcome};
+use super::case::{Case, Outcome};
 use toile::Colliders;
 use toile_lab::scenes::hanging_sheet;
 use toile_lab::{Lab, LabError, Run};

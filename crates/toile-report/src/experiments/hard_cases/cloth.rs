@@ -1,6 +1,6 @@
 //! Cloth that is hard by itself: what it is made of, how it starts, where it is.
 
-use super::{Case, Course, Outcome, course};
+use super::case::{Case, Course, Outcome, course};
 use glam::{DQuat, DVec2, DVec3};
 use toile::Colliders;
 use toile::model::{Model, StepSettings};

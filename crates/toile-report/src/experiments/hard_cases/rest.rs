@@ -1,6 +1,6 @@
 //! Rest that lasts: no creep and no heat.
 
-use super::{Case, Outcome};
+use super::case::{Case, Outcome};
 use glam::{DVec3, Vec3};
 use toile::model::{Model, StepSettings};
 use toile::scene::{Settings, Sphere};
