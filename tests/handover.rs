@@ -126,7 +126,7 @@ fn a_cloth_can_be_drawn_into_the_maps_of_the_next_one() {
     };
     let sphere = drawn(&empty.maps);
     let surface = toile_gpu::Surface::from(cloth.frame());
-    gpu().run(|encoder| empty.maps.record(&gpu().device, encoder, empty.read.frame, &[(&surface, 0.002)]));
+    gpu().run(|encoder| empty.maps.record(&gpu().device, encoder, empty.read.map_box, &[(&surface, 0.002)]));
     let cloth = drawn(&empty.maps);
     assert!(cloth > 100 && cloth != sphere, "{cloth} texels see the cloth");
 }

@@ -6,7 +6,7 @@ use toile_gpu::MovingBody;
 use toile_lab::fixtures::{fixture, scene, sheet_model};
 use toile_lab::kernels::{first_difference, vec3_words};
 use toile_lab::{Layers, read_maps};
-use toile_model::{MapFrame, Model, StepSettings};
+use toile_model::{MapBox, Model, StepSettings};
 use toile_reference::maps::{BodyMaps, Surface, render_maps_in, skin_body, vertex_velocities};
 use toile_reference::{Colliders, Reference};
 use toile_scene::{Cloth, Mesh, Motion, MovingMesh, RigidKey, Rule, Scene, VelocityModification};
@@ -67,20 +67,20 @@ fn the_device_skins_the_walking_woman_bit_for_bit() {
 #[test]
 fn the_velocity_map_shows_how_a_turning_body_moves() {
     let ball = rolling_ball();
-    let frame = MovingFrame::new(&ball, 0.01, 0.0, false).expect("the body is finite").at(0.2);
+    let map_box = MovingFrame::new(&ball, 0.01, 0.0, false).expect("the body is finite").at(0.2);
     let mut body = MovingBody::new(&gpu().device, &ball).expect("it fits the device");
     gpu().run(|encoder| {
         body.record_pose(&gpu().device, encoder, 0.199);
         body.record_pose(&gpu().device, encoder, 0.2);
     });
-    let maps = Layers::draw_surfaces(gpu(), &[(body.surface(), 0.0)], frame).expect("the device answers").read;
+    let maps = Layers::draw_surfaces(gpu(), &[(body.surface(), 0.0)], map_box).expect("the device answers").read;
     let layers = maps.velocities.as_ref().expect("a moving body");
     let mut seen = 0;
     for (side, (depth, velocities)) in maps.depth.iter().zip(layers).enumerate() {
         for (texel, velocity) in velocities.iter().enumerate().filter(|(texel, _)| depth[*texel] < 1.0) {
-            let [column, row] = [texel % frame.columns as usize, texel / frame.columns as usize];
-            let x = frame.origin_x + (column as f32 + 0.5) * frame.texel - 0.2;
-            let y = frame.origin_y - (row as f32 + 0.5) * frame.texel - 0.02;
+            let [column, row] = [texel % map_box.columns as usize, texel / map_box.columns as usize];
+            let x = map_box.origin_x + (column as f32 + 0.5) * map_box.texel - 0.2;
+            let y = map_box.origin_y - (row as f32 + 0.5) * map_box.texel - 0.02;
             // v + ω × r with ω = −2 rad/s around z.
             let expected = vec3(1.0 + 2.0 * y, 0.1 - 2.0 * x, 0.0);
             // Vertices go along chords, and the texel shows the last millisecond: 2 rad/s · 0.5 ms · 0.5 m/s.
@@ -139,11 +139,11 @@ fn whole_frames_on_a_moving_body_agree() {
 fn a_surface_between_two_poses_is_where_its_velocity_says() {
     let ball = rolling_ball();
     let interval = 1.0 / 60.0;
-    let frame = MovingFrame::new(&ball, 0.005, 0.0, false).expect("the body is finite").at(0.3);
+    let map_box = MovingFrame::new(&ball, 0.005, 0.0, false).expect("the body is finite").at(0.3);
     let [before, after] = [ball.at(0.3 - interval), ball.at(0.3)];
     let velocities = vertex_velocities(&before.positions, &after.positions, (1.0 / interval) as f32);
     let surface = Surface { mesh: &after, thickness: 0.0, velocities: Some(&velocities) };
-    let maps = render_maps_in(&[surface], frame);
+    let maps = render_maps_in(&[surface], map_box);
     let settings = StepSettings { swept: true, ..StepSettings::new(&sheet("4").1.settings, &Model::default()) };
     let mut worst: [f32; 2] = [0.0; 2];
     for (share, step) in [(0.0, 0), (0.5, 8), (0.95, 15)] {
@@ -288,18 +288,18 @@ fn an_outer_garment_sees_the_inner_one_as_it_moves() {
         outfit = Some(Outfit::new(device, encoder, &ball, &garments, 0.01, 1).expect("it fits"));
     });
     let mut outfit = outfit.expect("it was made");
-    let maps_at = |outfit: &Outfit, frame: MapFrame| -> [BodyMaps; 2] {
-        let read = outfit.maps().map(|maps| read_maps(gpu(), maps, frame).expect("the device answers"));
+    let maps_at = |outfit: &Outfit, map_box: MapBox| -> [BodyMaps; 2] {
+        let read = outfit.maps().map(|maps| read_maps(gpu(), maps, map_box).expect("the device answers"));
         read.collect::<Vec<_>>().try_into().expect("two garments")
     };
     // From the first frame on: the inner sheet, its thickness out of its particles. Its outside looks at the ball.
     gpu().run(|encoder| outfit.record(device, encoder, interval));
-    let frame = frames.at(interval);
-    let [inner, outer] = maps_at(&outfit, frame);
+    let map_box = frames.at(interval);
+    let [inner, outer] = maps_at(&outfit, map_box);
     let sheet = (0..outer.depth[0].len()).filter(|i| inner.depth[0][*i] == 1.0 && outer.depth[0][*i] < 1.0);
     let mut texels = 0;
     for texel in sheet {
-        let z = frame.z_front - outer.depth[0][texel] * (frame.z_front - frame.z_back);
+        let z = map_box.z_front - outer.depth[0][texel] * (map_box.z_front - map_box.z_back);
         assert!((z - 0.3 + settings.thickness).abs() < 1e-4, "texel {texel}: the sheet is drawn at {z} m");
         assert!(outer.normals[0][texel].distance(Vec3::Z) < 1e-3, "texel {texel}: {}", outer.normals[0][texel]);
         texels += 1;

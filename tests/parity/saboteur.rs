@@ -13,7 +13,7 @@ const SPARED: &[&str] = &[
     "let partial = group.x + group.y * groups.x;",
     "let item = group.x + group.y * groups.x;",
     // The rim of the maps is empty, so what lies beyond it is nothing too.
-    "if !(left >= 0.0 && left + 1.0 < f32(map_frame.columns) && top >= 0.0 && top + 1.0 < f32(map_frame.rows)) {",
+    "if !(left >= 0.0 && left + 1.0 < f32(map_box.columns) && top >= 0.0 && top + 1.0 < f32(map_box.rows)) {",
 ];
 
 /// One sign of a line: the line, and where in it the sign stands.

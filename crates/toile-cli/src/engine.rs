@@ -7,7 +7,7 @@ use glam::Vec3;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use toile::gpu::{BodyMaps, Kernel, PassTime, Surface, Timer, readback};
-use toile::model::{MapFrame, Merge, Model, Status, StepSettings};
+use toile::model::{MapBox, Merge, Model, Status, StepSettings};
 use toile::scene::{Mesh, Sphere};
 use toile::{Cloth, Colliders};
 use toile_reference::Reference;
@@ -108,12 +108,12 @@ fn draw_maps(gpu: &Gpu, layers: &[Layer], texel: f32) -> Result<BodyMaps> {
         .filter_map(|layer| layer.mesh.bounds().map(|[low, high]| [low - layer.thickness, high + layer.thickness]))
         .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
         .unwrap_or_default();
-    let frame = MapFrame::around(bounds, texel);
-    let maps = BodyMaps::new(&gpu.device, frame, false)?;
+    let map_box = MapBox::around(bounds, texel);
+    let maps = BodyMaps::new(&gpu.device, map_box, false)?;
     let surfaces: Vec<_> = layers.iter().map(|l| (Surface::new(&gpu.device, &l.mesh), l.thickness)).collect();
     let drawn: Vec<_> = surfaces.iter().map(|(surface, thickness)| (surface, *thickness)).collect();
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    maps.record(&gpu.device, &mut encoder, frame, &drawn);
+    maps.record(&gpu.device, &mut encoder, map_box, &drawn);
     gpu.queue.submit([encoder.finish()]);
     Ok(maps)
 }

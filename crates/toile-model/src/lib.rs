@@ -16,7 +16,7 @@ pub use csr::Csr;
 pub use error::ModelError;
 pub use mesh::geometry::NO_CORNER;
 pub use run::dressing::{Dressing, DressingError, Stage};
-pub use run::map_frame::MapFrame;
+pub use run::map_box::MapBox;
 pub use run::needs::{Maps, Needs};
 pub use run::status::Status;
 pub use run::step::StepSettings;

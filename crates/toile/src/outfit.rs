@@ -4,7 +4,7 @@ use crate::{Cloth, Colliders, Error};
 use glam::Vec3;
 use std::sync::Arc;
 use toile_gpu::{BodyMaps, MovingBody, Surface, Trail};
-use toile_model::{MapFrame, Model, StepSettings};
+use toile_model::{MapBox, Model, StepSettings};
 use toile_scene::MovingMesh;
 
 /// Bounds of a body are looked up in a table of so many per second [1/s].
@@ -48,15 +48,15 @@ impl MovingFrame {
             high - low
         });
         let largest = sizes.fold(Vec3::ZERO, Vec3::max);
-        frame.size = MapFrame::size_for(largest, texel);
+        frame.size = MapBox::size_for(largest, texel);
         Ok(frame)
     }
 
     /// The frame at a time [s].
-    pub fn at(&self, time: f64) -> MapFrame {
+    pub fn at(&self, time: f64) -> MapBox {
         let time = self.round.map_or(time, |round| time.rem_euclid(round)).max(0.0);
         // A time of the table stays one whatever the rounding: frames of the same pose are then the same.
-        MapFrame::moving(self.between((time * BOUNDS_RATE + 1e-4) as usize), self.texel, self.size)
+        MapBox::moving(self.between((time * BOUNDS_RATE + 1e-4) as usize), self.texel, self.size)
     }
 
     /// The box around the body from one time of the table to the next.
@@ -76,7 +76,7 @@ pub struct Outfit {
     maps_per_frame: u32,
     time: f64,
     /// Where the maps stand.
-    shown: MapFrame,
+    shown: MapBox,
     garments: Vec<Garment>,
     kept: Option<KeptMaps>,
 }
@@ -87,7 +87,7 @@ struct KeptMaps {
     /// Time from one to the next [s].
     interval: f64,
     /// The first shows the body one interval after the start, the last at the end.
-    maps: Vec<(BodyMaps, MapFrame)>,
+    maps: Vec<(BodyMaps, MapBox)>,
 }
 
 #[derive(Debug)]

@@ -210,16 +210,16 @@ impl Inputs for Input {
             "body_normals" => padded(&self.body.normals, 0.0),
             "last_positions" => padded(&self.body.last_positions, 1.0),
             "surface_velocities" => padded(&self.body.velocities, 0.0),
-            "map_frame" => {
-                let frame = self.layers.read.frame;
-                uniform(&structs::MapFrame {
-                    origin_x: frame.origin_x,
-                    origin_y: frame.origin_y,
-                    texel: frame.texel,
-                    z_front: frame.z_front,
-                    z_back: frame.z_back,
-                    columns: frame.columns,
-                    rows: frame.rows,
+            "map_box" => {
+                let map_box = self.layers.read.map_box;
+                uniform(&structs::MapBox {
+                    origin_x: map_box.origin_x,
+                    origin_y: map_box.origin_y,
+                    texel: map_box.texel,
+                    z_front: map_box.z_front,
+                    z_back: map_box.z_back,
+                    columns: map_box.columns,
+                    rows: map_box.rows,
                 })
             }
             "positions" => with_w(&self.particles.positions, &self.particles.inverse_masses),

@@ -5,8 +5,7 @@ use crate::{Gpu, Layers, Random};
 use glam::{DVec3, Vec3, Vec4, dvec3, vec3};
 use toile::gpu::{GpuError, Surface};
 use toile::model::{
-    Attachment, Csr, Hold, Limit, Link, MapFrame, Model, NO_CORNER, STRAND_PARTICLES_MAX, SeamPair, StepSettings,
-    Strand,
+    Attachment, Csr, Hold, Limit, Link, MapBox, Model, NO_CORNER, STRAND_PARTICLES_MAX, SeamPair, StepSettings, Strand,
 };
 use toile::scene::{Displacement, Fabric, Friction, Influence, Mesh, Morphs, Polish, Pose, Settings, Skin, Wind};
 use toile_kernels::{Domain, Kernel, TABLE};
@@ -438,8 +437,8 @@ fn moving_layers(gpu: &Gpu) -> Result<Layers, GpuError> {
         let buffer = gpu.upload(bytemuck::cast_slice(&velocities), wgpu::BufferUsages::VERTEX);
         Surface { velocities: Some(buffer), ..Surface::new(&gpu.device, &mesh) }
     });
-    let frame = MapFrame::around([vec3(-0.47, -0.47, -0.57), vec3(0.37, 0.42, 0.42)], 0.031);
-    Layers::draw_surfaces(gpu, &[(&surfaces[0], 0.005), (&surfaces[1], 0.01)], frame)
+    let map_box = MapBox::around([vec3(-0.47, -0.47, -0.57), vec3(0.37, 0.42, 0.42)], 0.031);
+    Layers::draw_surfaces(gpu, &[(&surfaces[0], 0.005), (&surfaces[1], 0.01)], map_box)
 }
 
 fn bodies() -> [Mesh; 2] {
@@ -490,7 +489,7 @@ fn body(random: &mut Random, vertices: u32) -> (Skin, Pose, Posed) {
 
 /// Moves some points to the borders of the maps, the centre and the surface of the sphere, and to where there is no number.
 fn place_at_the_edges(random: &mut Random, input: &mut Input) {
-    let frame = input.layers.read.frame;
+    let map_box = input.layers.read.map_box;
     let count = input.particle_count();
     for i in 0..count + input.midpoints.positions.len() {
         let (position, velocity) = if i < count {
@@ -502,8 +501,8 @@ fn place_at_the_edges(random: &mut Random, input: &mut Input) {
             5 => {
                 // On a border between two texels, also the outermost ones.
                 *velocity = Vec3::ZERO;
-                position.x = frame.origin_x + frame.texel * random.below(frame.columns + 1) as f32;
-                position.y = frame.origin_y - frame.texel * random.below(frame.rows + 1) as f32;
+                position.x = map_box.origin_x + map_box.texel * random.below(map_box.columns + 1) as f32;
+                position.y = map_box.origin_y - map_box.texel * random.below(map_box.rows + 1) as f32;
             }
             13 => *position = input.ball.centre,
             // Through the bodies within one step.

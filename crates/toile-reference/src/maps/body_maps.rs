@@ -1,7 +1,7 @@
 //! The maps of a body, texel by texel.
 
 use glam::Vec3;
-use toile_model::MapFrame;
+use toile_model::MapBox;
 
 /// The maps of a body. Layer 0 is what the front camera at +z sees, layer 1 what the back camera at −z sees.
 ///
@@ -9,7 +9,7 @@ use toile_model::MapFrame;
 #[derive(Clone, Debug, PartialEq)]
 pub struct BodyMaps {
     /// Where the maps stand in the world.
-    pub frame: MapFrame,
+    pub map_box: MapBox,
     /// Distance from the camera's plane, 0 to 1 of the distance of both planes; 1 where there is nothing.
     pub depth: [Vec<f32>; 2],
     /// Unit normals of the surface, facing the camera; zero where there is nothing.

@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3};
 use std::sync::Arc;
 use toile::Colliders;
 use toile::gpu::{BodyMaps, Surface};
-use toile::model::{Csr, MapFrame, Model, StepSettings};
+use toile::model::{Csr, MapBox, Model, StepSettings};
 use toile::scene::{Friction, Mesh, Rule, Settings, Sphere, SphereMotion, VelocityModification, Wind};
 use toile_lab::scenes::{ball, fabric, hanging_sheet, square};
 use toile_lab::{Lab, LabError, Run};
@@ -142,9 +142,9 @@ impl MovingBall {
         let swing = SphereMotion::Swing { amplitude: DVec3::new(0.4, 0.0, 0.0), period: 4.0 };
         let sphere = Sphere { motion: swing, ..ball() };
         let thickness = step.thickness;
-        let size = MapFrame::size_for(Vec3::splat(2.0 * reach(&sphere, thickness)), TEXEL);
-        let frame = frame_at(&sphere, 0.0, thickness, size);
-        let maps = Arc::new(BodyMaps::new(&lab.device, frame, with_velocities)?);
+        let size = MapBox::size_for(Vec3::splat(2.0 * reach(&sphere, thickness)), TEXEL);
+        let map_box = map_box_at(&sphere, 0.0, thickness, size);
+        let maps = Arc::new(BodyMaps::new(&lab.device, map_box, with_velocities)?);
         Ok(Self { sphere, maps, thickness, size, with_velocities })
     }
 
@@ -159,9 +159,9 @@ impl MovingBall {
             let velocity = ((centre - before) / INTERVAL).as_vec3();
             surface.velocities = Some(lab.vertex_buffer(&vec![velocity; mesh.positions.len()]));
         }
-        let frame = frame_at(&self.sphere, time, self.thickness, self.size);
+        let map_box = map_box_at(&self.sphere, time, self.thickness, self.size);
         let mut encoder = lab.device.create_command_encoder(&Default::default());
-        self.maps.record(&lab.device, &mut encoder, frame, &[(&surface, self.thickness)]);
+        self.maps.record(&lab.device, &mut encoder, map_box, &[(&surface, self.thickness)]);
         lab.queue.submit([encoder.finish()]);
     }
 }
@@ -170,7 +170,7 @@ fn reach(sphere: &Sphere, thickness: f32) -> f32 {
     sphere.radius as f32 + thickness + 2.0 * TEXEL
 }
 
-fn frame_at(sphere: &Sphere, time: f64, thickness: f32, size: [u32; 2]) -> MapFrame {
+fn map_box_at(sphere: &Sphere, time: f64, thickness: f32, size: [u32; 2]) -> MapBox {
     let [centre, reach] = [sphere.at(time).0.as_vec3(), Vec3::splat(reach(sphere, thickness))];
-    MapFrame::moving([centre - reach, centre + reach], TEXEL, size)
+    MapBox::moving([centre - reach, centre + reach], TEXEL, size)
 }
