@@ -11,10 +11,10 @@ use std::sync::Arc;
 use std::time::Instant;
 use support::Bench;
 use toile::gpu::{BodyMaps, Surface};
-use toile::model::{MapFrame, Model, StepSettings};
+use toile::model::{MapBox, Model, StepSettings};
 use toile::scene::{Mesh, Sheet};
 use toile::{Cloth, Colliders};
-use toile_workspace::sheet_settings;
+use toile_lab::fixtures::sheet_settings;
 
 /// Parallels of the ellipsoids; the triangles are 4·count².
 const PARALLELS: [u32; 3] = [16, 82, 164];
@@ -42,11 +42,11 @@ fn measure(bench: &Bench, body: &Mesh) {
     let scene = sheet_settings();
     let bounds = body.bounds().expect("an ellipsoid has vertices");
     let thickness = scene.fabric.thickness as f32;
-    let frame = MapFrame::around([bounds[0] - thickness, bounds[1] + thickness], scene.texel as f32);
-    let maps = BodyMaps::new(&bench.device, frame, false).unwrap_or_else(|error| panic!("{error}"));
+    let map_box = MapBox::around([bounds[0] - thickness, bounds[1] + thickness], scene.texel as f32);
+    let maps = BodyMaps::new(&bench.device, map_box, false).unwrap_or_else(|error| panic!("{error}"));
     let surface = Surface::new(&bench.device, body);
     let drawing = (0..10)
-        .map(|_| run(bench, |encoder| maps.record(&bench.device, encoder, frame, &[(&surface, thickness)])))
+        .map(|_| run(bench, |encoder| maps.record(&bench.device, encoder, map_box, &[(&surface, thickness)])))
         .fold(f64::INFINITY, f64::min);
 
     let sheet = Sheet {

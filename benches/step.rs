@@ -10,7 +10,7 @@ mod support;
 use support::Bench;
 use toile::model::StepSettings;
 use toile::{Cloth, Colliders};
-use toile_workspace::{scene, sheet_model, sphere};
+use toile_lab::fixtures::{scene, sheet_model, sphere};
 
 /// Steps that are measured.
 const STEPS: usize = 20;

@@ -21,7 +21,7 @@ macro_rules! for_every_struct {
             Midpoint,
             Probe,
             Contact,
-            MapFrame,
+            MapBox,
             Side,
             Ball,
             Lag,

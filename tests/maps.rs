@@ -3,11 +3,14 @@
 use glam::{Vec3, vec3};
 use toile_gpu::{Colliders, Plan, Solver};
 use toile_kernels::{Need, TABLE};
-use toile_model::{MapFrame, Model, StepSettings};
+use toile_lab::Layers;
+use toile_lab::fixtures::{body, scene, sheet_model};
+use toile_lab::shapes::without_triangles;
+use toile_model::{MapBox, Model, StepSettings};
 use toile_reference::ExactDistance;
 use toile_reference::maps::{BodyMaps, Surface, render_maps};
 use toile_scene::{Mesh, Rule, VelocityModification};
-use toile_workspace::{Layers, body, gpu, scene, sheet_model, without_triangles};
+use toile_workspace::gpu;
 
 const TEXEL: f32 = 0.005;
 const THICKNESS: f32 = 0.004;
@@ -40,8 +43,8 @@ struct Comparison {
 
 impl Comparison {
     fn new(device: &BodyMaps, reference: &BodyMaps) -> Self {
-        assert_eq!(device.frame, reference.frame);
-        let range = device.frame.z_front - device.frame.z_back;
+        assert_eq!(device.map_box, reference.map_box);
+        let range = device.map_box.z_front - device.map_box.z_back;
         let mut comparison = Self::default();
         for side in 0..2 {
             for texel in 0..device.depth[side].len() {
@@ -56,7 +59,7 @@ impl Comparison {
                 }
                 let normals = [device, reference].map(|maps| maps.normals[side][texel]);
                 let slope = normals[1].truncate().length() / normals[1].z.abs();
-                let tolerance = DEPTH_ATOL + DEPTH_RTOL * device.frame.texel * slope;
+                let tolerance = DEPTH_ATOL + DEPTH_RTOL * device.map_box.texel * slope;
                 let error = (depths[0] - depths[1]).abs() * range;
                 comparison.deep += usize::from(error.is_nan() || error > tolerance);
                 let turn = (normals[0] - normals[1]).length();
@@ -115,8 +118,8 @@ fn wrong_maps_are_found() {
     let ball = Mesh::sphere(vec3(0.1, 1.0, 0.0), 0.3, 32);
     let layers = Layers::draw(gpu(), &[(&ball, THICKNESS)], TEXEL).expect("the device answers");
     let right = layers.read;
-    let frame = right.frame;
-    let thinner = Layers::draw_in(gpu(), &[(&ball, 0.9 * THICKNESS)], frame).expect("the device answers").read;
+    let map_box = right.map_box;
+    let thinner = Layers::draw_in(gpu(), &[(&ball, 0.9 * THICKNESS)], map_box).expect("the device answers").read;
     assert!(!Comparison::new(&right, &thinner).agrees(), "thickness");
     let mut turned = right.clone();
     turned.normals[0].iter_mut().for_each(|normal| normal.x = -normal.x);
@@ -133,7 +136,7 @@ fn wrong_maps_are_found() {
 /// Distances [m] from the true body to the surface in the maps, sorted.
 fn distances(mesh: &Mesh, thickness: f32) -> Vec<f64> {
     let maps = Layers::draw(gpu(), &[(mesh, thickness)], TEXEL).expect("the device answers").read;
-    let MapFrame { origin_x, origin_y, texel, columns, z_front, z_back, .. } = maps.frame;
+    let MapBox { origin_x, origin_y, texel, columns, z_front, z_back, .. } = maps.map_box;
     let exact = ExactDistance::new(mesh);
     let mut distances = Vec::new();
     for (side, sign) in [(0, 1.0), (1, -1.0)] {
@@ -187,7 +190,7 @@ fn without_a_body_nothing_of_the_contacts_exists() {
         assert!(!contact.contains(&row.need), "{} needs a body", kernel.name());
     }
     let names: Vec<&str> = solver.buffer_sizes().map(|(name, _)| name).collect();
-    for name in ["map_frame", "midpoints", "probes", "contacts", "ball"] {
+    for name in ["map_box", "midpoints", "probes", "contacts", "ball"] {
         assert!(!names.contains(&name), "{name} among {names:?}");
     }
     let cloth = toile::Cloth::new(&gpu().device, &model, &settings, Default::default()).expect("it fits");
@@ -198,10 +201,10 @@ fn without_a_body_nothing_of_the_contacts_exists() {
 #[test]
 fn plan_and_bytes_do_not_depend_on_the_triangles_of_the_body() {
     let (model, settings) = sheet(Rule::Predictive);
-    let frame = MapFrame::around([vec3(-0.4, -0.4, -0.4), vec3(0.4, 0.4, 0.4)], TEXEL);
+    let map_box = MapBox::around([vec3(-0.4, -0.4, -0.4), vec3(0.4, 0.4, 0.4)], TEXEL);
     let with = |count: u32| {
         let mesh = Mesh::sphere(Vec3::ZERO, 0.3, count);
-        let layers = Layers::draw_in(gpu(), &[(&mesh, THICKNESS)], frame).expect("the device answers");
+        let layers = Layers::draw_in(gpu(), &[(&mesh, THICKNESS)], map_box).expect("the device answers");
         let colliders = toile::Colliders { maps: Some(layers.maps.clone()), sphere: None };
         let cloth = toile::Cloth::new(&gpu().device, &model, &settings, colliders).expect("it fits");
         (mesh.triangles.len(), cloth.plan().clone(), cloth.bytes(), layers.maps.bytes())

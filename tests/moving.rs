@@ -3,11 +3,14 @@
 use glam::{DQuat, DVec3, Vec3, vec3};
 use toile::Simulation;
 use toile_gpu::MovingBody;
-use toile_model::{MapFrame, Model, StepSettings};
+use toile_lab::fixtures::{fixture, scene, sheet_model};
+use toile_lab::kernels::{first_difference, vec3_words};
+use toile_lab::{Layers, read_maps};
+use toile_model::{MapBox, Model, StepSettings};
 use toile_reference::maps::{BodyMaps, Surface, render_maps_in, skin_body, vertex_velocities};
 use toile_reference::{Colliders, Reference};
 use toile_scene::{Body, Cloth, Mesh, Motion, MovingMesh, RigidKey, Rule, Scene, VelocityModification};
-use toile_workspace::{Layers, first_difference, fixture, gpu, read_maps, scene, sheet_model, vec3_words};
+use toile_workspace::gpu;
 
 fn walking(clip: &str) -> MovingMesh {
     let options = toile::files::BodyOptions { clip: Some(clip.to_owned()), ..Default::default() };
@@ -31,10 +34,10 @@ fn rolling_ball() -> MovingMesh {
 }
 
 /// Where the maps of a body stand at a time [s].
-fn place_at(body: &MovingMesh, time: f64, texel: f32) -> MapFrame {
+fn box_at(body: &MovingMesh, time: f64, texel: f32) -> MapBox {
     let [low, high] = body.at(time).bounds().expect("a body has vertices");
     let [low, high] = [low - 0.03, high + 0.03];
-    MapFrame::moving([low, high], texel, MapFrame::size_for(high - low, texel))
+    MapBox::moving([low, high], texel, MapBox::size_for(high - low, texel))
 }
 
 /// A scene of sheets that goes on a body.
@@ -54,9 +57,9 @@ fn frame(simulation: &mut Simulation) {
 
 /// What the cloths see, from the inside out.
 fn seen_maps(simulation: &Simulation) -> Vec<BodyMaps> {
-    let place = simulation.map_place().expect("there are maps");
+    let map_box = simulation.map_box().expect("there are maps");
     let maps = simulation.cloths().map(|worn| worn.cloth.maps().expect("a cloth on a body has maps"));
-    maps.map(|maps| read_maps(gpu(), maps, place).expect("the device answers")).collect()
+    maps.map(|maps| read_maps(gpu(), maps, map_box).expect("the device answers")).collect()
 }
 
 #[test]
@@ -93,7 +96,7 @@ fn the_device_skins_the_walking_woman_bit_for_bit() {
 #[test]
 fn the_velocity_map_shows_how_a_turning_body_moves() {
     let ball = rolling_ball();
-    let frame = place_at(&ball, 0.2, 0.01);
+    let frame = box_at(&ball, 0.2, 0.01);
     let mut body = MovingBody::new(&gpu().device, &ball).expect("it fits the device");
     gpu().run(|encoder| {
         body.record_pose(&gpu().device, encoder, 0.199);
@@ -150,7 +153,7 @@ fn whole_frames_on_a_moving_body_agree() {
 fn a_surface_between_two_poses_is_where_its_velocity_says() {
     let ball = rolling_ball();
     let interval = 1.0 / 60.0;
-    let frame = place_at(&ball, 0.3, 0.005);
+    let frame = box_at(&ball, 0.3, 0.005);
     let [before, after] = [ball.at(0.3 - interval), ball.at(0.3)];
     let velocities = vertex_velocities(&before.positions, &after.positions, (1.0 / interval) as f32);
     let surface = Surface { mesh: &after, thickness: 0.0, velocities: Some(&velocities) };
@@ -207,7 +210,7 @@ fn passed(speed: f64, swept: bool) -> usize {
         time += interval;
         let velocities = vertex_velocities(&before.positions, &after.positions, (1.0 / interval) as f32);
         let surface = Surface { mesh: &after, thickness: settings.thickness, velocities: Some(&velocities) };
-        let maps = render_maps_in(&[surface], place_at(&ball, time, 0.01));
+        let maps = render_maps_in(&[surface], box_at(&ball, time, 0.01));
         let colliders = Colliders { maps: Some(maps.clone()), sphere: None };
         let reference = reference.get_or_insert_with(|| Reference::new(&model, &settings, colliders));
         reference.set_maps(maps);
@@ -289,12 +292,12 @@ fn an_outer_garment_sees_the_inner_one_as_it_moves() {
     let maps_of = |simulation: &Simulation| -> [BodyMaps; 2] { seen_maps(simulation).try_into().expect("two sheets") };
     // From the first frame on: the inner sheet, its thickness out of its particles. Its outside looks at the ball.
     frame(&mut simulation);
-    let place = simulation.map_place().expect("there are maps");
+    let map_box = simulation.map_box().expect("there are maps");
     let [inner, outer] = maps_of(&simulation);
     let sheet = (0..outer.depth[0].len()).filter(|i| inner.depth[0][*i] == 1.0 && outer.depth[0][*i] < 1.0);
     let mut texels = 0;
     for texel in sheet {
-        let z = place.z_front - outer.depth[0][texel] * (place.z_front - place.z_back);
+        let z = map_box.z_front - outer.depth[0][texel] * (map_box.z_front - map_box.z_back);
         assert!((z - 0.3 + thickness).abs() < 1e-4, "texel {texel}: the sheet is drawn at {z} m");
         assert!(outer.normals[0][texel].distance(Vec3::Z) < 1e-3, "texel {texel}: {}", outer.normals[0][texel]);
         texels += 1;

@@ -3,9 +3,9 @@
 use glam::Vec3;
 use std::collections::BTreeMap;
 use toile_kernels::Kernel;
+use toile_lab::kernels::Input;
 use toile_model::{NO_CORNER, StepSettings};
 use toile_reference::{Contact, Probe};
-use toile_report::kernels::Input;
 
 /// How many items went into each branch.
 pub type Seen = BTreeMap<&'static str, usize>;
@@ -337,16 +337,16 @@ fn wind(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize)
 
 fn maps(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize)) {
     let maps = &before.layers.read;
-    let frame = maps.frame;
+    let map_box = maps.map_box;
     let [points, velocities] = before.points();
     let mut counts = [0; 8];
     for ((point, velocity), probe) in points.iter().zip(&velocities).zip(&after.probes) {
         let next = *point + *velocity * before.settings.dt;
-        let column = ((next.x - frame.origin_x) / frame.texel).floor();
-        let row = ((frame.origin_y - next.y) / frame.texel).floor();
+        let column = ((next.x - map_box.origin_x) / map_box.texel).floor();
+        let row = ((map_box.origin_y - next.y) / map_box.texel).floor();
         let [beside_x, beside_y] =
-            [(column, frame.columns), (row, frame.rows)].map(|(i, n)| !(i >= 0.0 && i < n as f32));
-        let texel = (row as usize * frame.columns as usize + column as usize).min(maps.depth[0].len() - 1);
+            [(column, map_box.columns), (row, map_box.rows)].map(|(i, n)| !(i >= 0.0 && i < n as f32));
+        let texel = (row as usize * map_box.columns as usize + column as usize).min(maps.depth[0].len() - 1);
         let kind = match (beside_x || beside_y, probe.hit) {
             _ if next.is_nan() => 0,
             (true, _) if beside_x => 1,
@@ -357,7 +357,7 @@ fn maps(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize)
             (false, true) => 6,
         };
         counts[kind] += 1;
-        counts[7] += usize::from(((next.x - frame.origin_x) / frame.texel).fract() == 0.0);
+        counts[7] += usize::from(((next.x - map_box.origin_x) / map_box.texel).fract() == 0.0);
     }
     let swept = StepSettings { swept: true, ..before.settings.clone() };
     let unswept = StepSettings { swept: false, ..before.settings.clone() };

@@ -3,7 +3,7 @@
 use crate::branches;
 use std::sync::OnceLock;
 use toile_kernels::{Kernel, TABLE};
-use toile_report::kernels::{Compiled, Input, Inputs, Seeds, VARIANTS, Variant, answer, first_difference};
+use toile_lab::kernels::{Compiled, Input, Inputs, Seeds, VARIANTS, Variant, answer, first_difference};
 use toile_workspace::gpu;
 
 /// One item, and around the border of a workgroup, and more than a few of them.

@@ -3,7 +3,7 @@
 use encase::{ShaderType, UniformBuffer};
 use toile_gpu::BodyMaps;
 use toile_kernels::{Kernel, structs};
-use toile_report::kernels::{Compiled, Inputs};
+use toile_lab::kernels::{Compiled, Inputs};
 use toile_workspace::gpu;
 
 /// A few items into the second row of workgroups.

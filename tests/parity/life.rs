@@ -1,10 +1,12 @@
 //! The same cloth on the device and in the reference, compared after every step.
 
 use toile_gpu::{Colliders, Solver};
+use toile_lab::Layers;
+use toile_lab::kernels::{first_difference, vec3_words};
 use toile_model::{Merge, Model, Status, StepSettings};
 use toile_reference::Reference;
 use toile_scene::Sphere;
-use toile_workspace::{Layers, arrived, first_difference, gpu, vec3_words};
+use toile_workspace::{arrived, gpu};
 
 /// The same cloth on the device and in the reference.
 pub struct Life {

@@ -3,9 +3,9 @@
 use crate::kernels::{difference, input};
 use glam::{Vec2, Vec3, vec3};
 use toile_kernels::Kernel;
+use toile_lab::Random;
+use toile_lab::kernels::{Compiled, Input, Variant};
 use toile_model::Strand;
-use toile_report::Random;
-use toile_report::kernels::{Compiled, Input, Variant};
 use toile_workspace::gpu;
 
 fn agrees(kernel: Kernel, input: &Input) {
@@ -19,18 +19,18 @@ fn dive_through_corners() -> Input {
     let mut input = input(Kernel::SampleMaps, 1757, Variant::Coulomb);
     let random = &mut Random::new(1);
     let (maps, dt) = (&input.layers.read, input.settings.dt);
-    let frame = maps.frame;
+    let map_box = maps.map_box;
     let seen: Vec<usize> = (0..maps.depth[0].len()).filter(|texel| maps.depth[0][*texel] < 1.0).collect();
     for (position, velocity) in input.particles.positions.iter_mut().zip(&mut input.particles.velocities) {
         let texel = seen[random.below(seen.len() as u32) as usize];
-        let columns = frame.columns as usize;
-        let corner = Vec2::new((texel % columns) as f32, (texel / columns) as f32) * frame.texel;
-        let surface = frame.z_front - maps.depth[0][texel] * (frame.z_front - frame.z_back);
-        let middle = vec3(frame.origin_x + corner.x, frame.origin_y - corner.y, surface - 0.2 * frame.texel);
+        let columns = map_box.columns as usize;
+        let corner = Vec2::new((texel % columns) as f32, (texel / columns) as f32) * map_box.texel;
+        let surface = map_box.z_front - maps.depth[0][texel] * (map_box.z_front - map_box.z_back);
+        let middle = vec3(map_box.origin_x + corner.x, map_box.origin_y - corner.y, surface - 0.2 * map_box.texel);
         // Longer than one texel and at most two: the middle is the one place that is tested before the end.
-        let sideways = random.between(0.8, 1.1) * frame.texel;
+        let sideways = random.between(0.8, 1.1) * map_box.texel;
         let across = if random.one_in(2) { sideways } else { -sideways };
-        let way = vec3(across, random.between(0.8, 1.1) * frame.texel, random.between(-4.0, -1.0) * frame.texel);
+        let way = vec3(across, random.between(0.8, 1.1) * map_box.texel, random.between(-4.0, -1.0) * map_box.texel);
         *position = middle - way * 0.5;
         *velocity = way / dt;
     }

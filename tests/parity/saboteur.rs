@@ -3,7 +3,7 @@
 use crate::kernels::{difference, input};
 use std::collections::BTreeMap;
 use toile_kernels::{Kernel, TABLE};
-use toile_report::kernels::{Compiled, VARIANTS};
+use toile_lab::kernels::{Compiled, VARIANTS};
 use toile_workspace::gpu;
 
 /// Lines that a flipped sign does not break on these inputs, each with its reason.
@@ -13,7 +13,7 @@ const SPARED: &[&str] = &[
     "let partial = group.x + group.y * groups.x;",
     "let item = group.x + group.y * groups.x;",
     // The rim of the maps is empty, so what lies beyond it is nothing too.
-    "if !(left >= 0.0 && left + 1.0 < f32(map_frame.columns) && top >= 0.0 && top + 1.0 < f32(map_frame.rows)) {",
+    "if !(left >= 0.0 && left + 1.0 < f32(map_box.columns) && top >= 0.0 && top + 1.0 < f32(map_box.rows)) {",
 ];
 
 /// One sign of a line: the line, and where in it the sign stands.

@@ -2,9 +2,11 @@
 
 use glam::Vec3;
 use toile::Cloth;
+use toile_lab::Random;
+use toile_lab::fixtures::{scene, sheet_model, sphere};
 use toile_model::{Model, Status, StepSettings};
 use toile_scene::{Polish, Settings, Sphere};
-use toile_workspace::{Random, advance, gpu, scene, sheet_model, sphere};
+use toile_workspace::{advance, gpu};
 
 /// How a scene went.
 struct Run {

@@ -1,6 +1,6 @@
 // Draws the surfaces of the bodies into the depth and normal maps, and those of moving bodies into the velocity map too, seen by
 // the front or the back camera. W §4.1-4.3.
-#import shared/map_frame
+#import shared/map_box
 
 const FRONT: u32 = 0u;
 
@@ -25,14 +25,14 @@ struct Colours {
     @location(1) velocity: vec4<f32>,
 }
 
-@group(0) @binding(0) var<uniform> map_frame: MapFrame;
+@group(0) @binding(0) var<uniform> map_box: MapBox;
 @group(0) @binding(1) var<uniform> camera: Side;
 
 fn project(position: vec3<f32>, normal: vec3<f32>) -> vec4<f32> {
     let surface = position + normal * camera.thickness;
-    let x = 2.0 * ((surface.x - map_frame.origin_x) / (f32(map_frame.columns) * map_frame.texel)) - 1.0;
-    let y = 1.0 - 2.0 * ((map_frame.origin_y - surface.y) / (f32(map_frame.rows) * map_frame.texel));
-    var depth = (map_frame.z_front - surface.z) / (map_frame.z_front - map_frame.z_back);
+    let x = 2.0 * ((surface.x - map_box.origin_x) / (f32(map_box.columns) * map_box.texel)) - 1.0;
+    let y = 1.0 - 2.0 * ((map_box.origin_y - surface.y) / (f32(map_box.rows) * map_box.texel));
+    var depth = (map_box.z_front - surface.z) / (map_box.z_front - map_box.z_back);
     if camera.side != FRONT {
         depth = 1.0 - depth;
     }

@@ -13,6 +13,7 @@ mod picture;
 mod progress;
 mod reference_run;
 mod simulate;
+mod stdout;
 mod steps;
 mod walk;
 mod worn;

@@ -2,10 +2,10 @@
 
 use crate::adapter;
 use crate::args::{Backend, Running};
-use crate::commands::print;
 use crate::engine::Computer;
 use crate::metrics::{ClothMetrics, Metrics, Surfaces};
 use crate::output::{self, Shown};
+use crate::stdout::print;
 use crate::worn::{self, Worn};
 use anyhow::{Result, bail};
 use toile::files::SceneFile;

@@ -7,11 +7,11 @@ mod stage;
 
 use crate::adapter::{self, Gpu};
 use crate::args::{Backend, Running};
-use crate::commands::print;
 use crate::engine::{self, Engine, State, status};
 use crate::interrupt;
 use crate::output;
 use crate::picture::{self, Drawn, Material, View};
+use crate::stdout::print;
 use crate::worn::{self, Log};
 use anyhow::{Context, Result, bail};
 use glam::Vec3;

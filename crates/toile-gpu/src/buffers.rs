@@ -77,11 +77,11 @@ impl Plan {
     }
 }
 
-/// The buffers among bindings. The frame of the maps lives with the maps.
+/// The buffers among bindings. The box of the maps lives with the maps.
 fn named<'a>(bindings: impl Iterator<Item = &'a Binding>) -> BTreeMap<&'a str, Resource> {
     bindings
         .filter(|binding| matches!(binding.resource, Resource::Uniform { .. } | Resource::Storage { .. }))
-        .filter(|binding| binding.name != "map_frame")
+        .filter(|binding| binding.name != "map_box")
         .map(|binding| (binding.name.as_str(), binding.resource))
         .collect()
 }

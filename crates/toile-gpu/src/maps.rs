@@ -4,7 +4,7 @@ use crate::GpuError;
 use crate::buffers::uniform_bytes;
 use crate::limits::check_limits;
 use toile_kernels::{render_maps_source, structs};
-use toile_model::MapFrame;
+use toile_model::MapBox;
 use toile_scene::Mesh;
 use wgpu::util::DeviceExt;
 
@@ -71,7 +71,7 @@ pub struct BodyMaps {
     depth: Map,
     normals: Map,
     velocities: Option<Map>,
-    frame_uniform: wgpu::Buffer,
+    map_box_uniform: wgpu::Buffer,
     pipeline: wgpu::RenderPipeline,
     layout: wgpu::BindGroupLayout,
 }
@@ -125,18 +125,18 @@ impl Map {
 }
 
 impl BodyMaps {
-    /// Empty maps as large as a frame, of bodies at rest or of moving ones.
+    /// Empty maps as large as a box, of bodies at rest or of moving ones.
     ///
     /// # Errors
-    /// [`GpuError::MapTooLarge`] when the frame has more texels on a side than the device's textures, [`GpuError::LimitTooLow`] when the
+    /// [`GpuError::MapTooLarge`] when the box has more texels on a side than the device's textures, [`GpuError::LimitTooLow`] when the
     /// device has less than the render pass needs.
-    pub fn new(device: &wgpu::Device, frame: MapFrame, moving: bool) -> Result<Self, GpuError> {
+    pub fn new(device: &wgpu::Device, map_box: MapBox, moving: bool) -> Result<Self, GpuError> {
         check_limits(device)?;
         let available = device.limits().max_texture_dimension_2d;
-        if frame.columns.max(frame.rows) > available {
-            return Err(GpuError::MapTooLarge { columns: frame.columns, rows: frame.rows, available });
+        if map_box.columns.max(map_box.rows) > available {
+            return Err(GpuError::MapTooLarge { columns: map_box.columns, rows: map_box.rows, available });
         }
-        let size = wgpu::Extent3d { width: frame.columns, height: frame.rows, depth_or_array_layers: 2 };
+        let size = wgpu::Extent3d { width: map_box.columns, height: map_box.rows, depth_or_array_layers: 2 };
         let (layout, pipeline) = create_pipeline(device, moving);
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         Ok(Self {
@@ -144,7 +144,7 @@ impl BodyMaps {
             depth: Map::new(device, "depth map", DEPTH_FORMAT, size),
             normals: Map::new(device, "normal map", COLOUR_FORMAT, size),
             velocities: moving.then(|| Map::new(device, "velocity map", COLOUR_FORMAT, size)),
-            frame_uniform: create(device, "map_frame", &frame_bytes(&frame), usage),
+            map_box_uniform: create(device, "map_box", &map_box_bytes(&map_box), usage),
             pipeline,
             layout,
         })
@@ -159,24 +159,24 @@ impl BodyMaps {
             depth: map("depth map", DEPTH_FORMAT),
             normals: map("normal map", COLOUR_FORMAT),
             velocities: self.is_moving().then(|| map("velocity map", COLOUR_FORMAT)),
-            frame_uniform: create(device, "map_frame", &vec![0; self.frame_uniform.size() as usize], usage),
+            map_box_uniform: create(device, "map_box", &vec![0; self.map_box_uniform.size() as usize], usage),
             pipeline: self.pipeline.clone(),
             layout: self.layout.clone(),
         }
     }
 
-    /// Records the drawing of all surfaces into a frame, each offset along its normals by the thickness beside it [m].
+    /// Records the drawing of all surfaces into a box, each offset along its normals by the thickness beside it [m].
     ///
     /// # Panics
-    /// When the frame has another size than these maps, or a surface in maps of moving bodies has no velocities.
+    /// When the box has another size than these maps, or a surface in maps of moving bodies has no velocities.
     pub fn record(
         &self,
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
-        frame: MapFrame,
+        map_box: MapBox,
         surfaces: &[(&Surface, f32)],
     ) {
-        self.place(device, encoder, frame);
+        self.place(device, encoder, map_box);
         self.draw(device, encoder, surfaces, true);
     }
 
@@ -188,7 +188,7 @@ impl BodyMaps {
         self.draw(device, encoder, surfaces, false);
     }
 
-    /// Records a copy of maps of the same size, which show the bodies in `frame`.
+    /// Records a copy of maps of the same size, which show the bodies in `map_box`.
     ///
     /// # Panics
     /// When the other maps have another size, or only one of both shows velocities.
@@ -197,11 +197,11 @@ impl BodyMaps {
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
         other: &BodyMaps,
-        frame: MapFrame,
+        map_box: MapBox,
     ) {
         assert_eq!(self.size, other.size, "maps are copied into maps of the same size");
         assert_eq!(self.is_moving(), other.is_moving(), "maps with and without velocities");
-        self.place(device, encoder, frame);
+        self.place(device, encoder, map_box);
         let mut copy = |from: &Map, to: &Map| {
             encoder.copy_texture_to_texture(from.texture.as_image_copy(), to.texture.as_image_copy(), self.size);
         };
@@ -212,12 +212,12 @@ impl BodyMaps {
         }
     }
 
-    fn place(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, frame: MapFrame) {
+    fn place(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, map_box: MapBox) {
         let size = [self.size.width, self.size.height];
-        assert_eq!([frame.columns, frame.rows], size, "the frame has the size of the maps");
+        assert_eq!([map_box.columns, map_box.rows], size, "the box has the size of the maps");
         // A buffer of its own, not a queue write: the caller may record several frames before submitting any.
-        let upload = create(device, "map_frame upload", &frame_bytes(&frame), wgpu::BufferUsages::COPY_SRC);
-        encoder.copy_buffer_to_buffer(&upload, 0, &self.frame_uniform, 0, upload.size());
+        let upload = create(device, "map_box upload", &map_box_bytes(&map_box), wgpu::BufferUsages::COPY_SRC);
+        encoder.copy_buffer_to_buffer(&upload, 0, &self.map_box_uniform, 0, upload.size());
     }
 
     fn draw(
@@ -280,20 +280,20 @@ impl BodyMaps {
         self.velocities.as_ref().map(|map| &map.texture)
     }
 
-    /// Bytes of the textures and of what the kernels know of their frame.
+    /// Bytes of the textures and of what the kernels know of their box.
     pub fn bytes(&self) -> u64 {
         bytes_of(self.size.width, self.size.height, self.is_moving())
     }
 
-    /// Bytes that maps over a frame have. It needs no device.
-    pub fn bytes_over(frame: &MapFrame, moving: bool) -> u64 {
-        bytes_of(frame.columns, frame.rows, moving)
+    /// Bytes that maps over a box have. It needs no device.
+    pub fn bytes_over(map_box: &MapBox, moving: bool) -> u64 {
+        bytes_of(map_box.columns, map_box.rows, moving)
     }
 
     /// The resource that the kernels know by this name, if it is one of the maps.
     pub(crate) fn resource(&self, name: &str) -> Option<wgpu::BindingResource<'_>> {
         match name {
-            "map_frame" => Some(self.frame_uniform.as_entire_binding()),
+            "map_box" => Some(self.map_box_uniform.as_entire_binding()),
             "depth_map" => Some(wgpu::BindingResource::TextureView(&self.depth.layers)),
             "normal_map" => Some(wgpu::BindingResource::TextureView(&self.normals.layers)),
             "velocity_map" => self.velocities.as_ref().map(|map| wgpu::BindingResource::TextureView(&map.layers)),
@@ -308,7 +308,7 @@ impl BodyMaps {
             label: Some("render_maps"),
             layout: &self.layout,
             entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: self.frame_uniform.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 0, resource: self.map_box_uniform.as_entire_binding() },
                 wgpu::BindGroupEntry { binding: 1, resource: camera.as_entire_binding() },
             ],
         })
@@ -318,18 +318,18 @@ impl BodyMaps {
 fn bytes_of(columns: u32, rows: u32, moving: bool) -> u64 {
     let texels = 2 * u64::from(columns) * u64::from(rows);
     let colours = if moving { 2 } else { 1 };
-    texels * (4 + 16 * colours) + <structs::MapFrame as encase::ShaderType>::min_size().get()
+    texels * (4 + 16 * colours) + <structs::MapBox as encase::ShaderType>::min_size().get()
 }
 
-fn frame_bytes(frame: &MapFrame) -> Vec<u8> {
-    uniform_bytes(&structs::MapFrame {
-        origin_x: frame.origin_x,
-        origin_y: frame.origin_y,
-        texel: frame.texel,
-        z_front: frame.z_front,
-        z_back: frame.z_back,
-        columns: frame.columns,
-        rows: frame.rows,
+fn map_box_bytes(map_box: &MapBox) -> Vec<u8> {
+    uniform_bytes(&structs::MapBox {
+        origin_x: map_box.origin_x,
+        origin_y: map_box.origin_y,
+        texel: map_box.texel,
+        z_front: map_box.z_front,
+        z_back: map_box.z_back,
+        columns: map_box.columns,
+        rows: map_box.rows,
     })
 }
 

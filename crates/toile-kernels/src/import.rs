@@ -12,7 +12,7 @@ const SHARED: &[(&str, &str)] = &shared![
     "elongation",
     "item",
     "limit",
-    "map_frame",
+    "map_box",
     "map_planes",
     "midpoint",
     "over_long",

@@ -166,9 +166,9 @@ pub struct Contact {
     pub padding: f32,
 }
 
-/// Where the two map cameras stand. `wgsl/shared/map_frame.wgsl`.
+/// Where the two map cameras stand. `wgsl/shared/map_box.wgsl`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct MapFrame {
+pub struct MapBox {
     /// Left edge [m].
     pub origin_x: f32,
     /// Top edge [m].

@@ -3,6 +3,7 @@
 //! A scene becomes a [`Simulation`] on the host's device. It records into the host's encoder and gives back buffers of positions,
 //! normals and indices. It never submits, never waits and never maps a buffer in the frame loop.
 
+mod boxes;
 mod clock;
 mod cloth;
 mod error;
@@ -10,7 +11,6 @@ mod fitting;
 mod frame;
 mod outfit;
 mod piece;
-mod places;
 mod pose;
 mod simulation;
 mod state;

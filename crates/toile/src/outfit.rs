@@ -1,11 +1,11 @@
 //! Cloths that go together on bodies, each over the ones before it.
 
-use crate::places::Places;
+use crate::boxes::Boxes;
 use crate::{Cloth, Colliders, Error};
 use std::ops::Range;
 use std::sync::Arc;
 use toile_gpu::{BodyMaps, MovingBody, Surface, Trail};
-use toile_model::{MapFrame, Model, StepSettings};
+use toile_model::{MapBox, Model, StepSettings};
 use toile_scene::{Mesh, MovingMesh, Sphere};
 
 /// Maps of moving bodies are drawn so often at least [1/s]; in between, surfaces go straight on by the velocity map.
@@ -37,9 +37,9 @@ pub(crate) struct Outfit {
     moving: Vec<MovingBody>,
     still: Vec<Surface>,
     /// Where the maps stand while anything in them moves.
-    places: Option<Places>,
+    boxes: Option<Boxes>,
     /// Where they stand now; `None` without maps.
-    shown: Option<MapFrame>,
+    shown: Option<MapBox>,
     thickness: f32,
     /// Simulated time of a frame [s].
     frame_seconds: f64,
@@ -58,7 +58,7 @@ struct KeptMaps {
     /// Time from one to the next [s].
     interval: f64,
     /// The first shows the body one interval after the start, the last at the end.
-    maps: Vec<(BodyMaps, MapFrame)>,
+    maps: Vec<(BodyMaps, MapBox)>,
 }
 
 /// One cloth and what it sees.
@@ -85,7 +85,7 @@ pub(crate) fn maps_per_frame(steps: u32, frame_rate: f64) -> u32 {
 
 impl Outfit {
     /// Cloths at the start of their models, from the inside out, and the bodies before their first pose. Maps of moving surfaces stand at
-    /// `places`, those of surfaces at rest at `shown`. Pipelines are those of `alike`, as far as it has them.
+    /// `boxes`, those of surfaces at rest at `shown`. Pipelines are those of `alike`, as far as it has them.
     ///
     /// # Errors
     /// [`Error::Gpu`] when bodies, maps or a cloth do not fit the device.
@@ -93,31 +93,31 @@ impl Outfit {
         device: &wgpu::Device,
         bodies: &Bodies,
         cloths: &[(&Model, StepSettings)],
-        places: Option<Places>,
-        still_at: Option<MapFrame>,
+        boxes: Option<Boxes>,
+        still_box: Option<MapBox>,
         frame_rate: f64,
         alike: Option<&Cloth>,
     ) -> Result<Self, Error> {
         let thickness = cloths.iter().map(|(_, settings)| settings.thickness).fold(0.0, f32::max);
         let maps_per_frame = cloths.first().map_or(1, |(_, step)| maps_per_frame(step.steps_per_frame, frame_rate));
         let moving = bodies.moving.iter().map(|body| MovingBody::new(device, body)).collect::<Result<Vec<_>, _>>()?;
-        let at_rest = |mesh| match places {
+        let at_rest = |mesh| match boxes {
             Some(_) => Surface::at_rest(device, mesh),
             None => Surface::new(device, mesh),
         };
         let still: Vec<Surface> = bodies.still.iter().map(at_rest).collect();
-        let shown = places.as_ref().map(|places| places.at(0.0)).or(still_at);
+        let shown = boxes.as_ref().map(|boxes| boxes.at(0.0)).or(still_box);
         let has_meshes = !(moving.is_empty() && still.is_empty());
         let outermost = cloths.len().saturating_sub(1);
         let mut layers: Vec<Layer> = Vec::new();
         for (model, step) in cloths {
             // Where there is no body to see, the innermost cloth sees nothing.
-            let place = shown.filter(|_| has_meshes || !layers.is_empty());
+            let map_box = shown.filter(|_| has_meshes || !layers.is_empty());
             let drawn = layers.iter().find_map(|layer| layer.maps.as_ref());
-            let maps = match (place, drawn) {
+            let maps = match (map_box, drawn) {
                 (None, _) => None,
                 (Some(_), Some(drawn)) => Some(drawn.new_alike(device)),
-                (Some(place), None) => Some(BodyMaps::new(device, place, places.is_some())?),
+                (Some(map_box), None) => Some(BodyMaps::new(device, map_box, boxes.is_some())?),
             };
             let maps = maps.map(Arc::new);
             let colliders = Colliders { maps: maps.clone(), sphere: bodies.shapes.first().cloned() };
@@ -136,7 +136,7 @@ impl Outfit {
         Ok(Self {
             moving,
             still,
-            places,
+            boxes,
             shown,
             thickness,
             frame_seconds: 1.0 / frame_rate,
@@ -160,8 +160,7 @@ impl Outfit {
     ) -> Result<(), Error> {
         let interval = self.interval_seconds();
         let count = maps_of_round(body, interval).expect("a closed motion of a whole number of intervals");
-        let (Some(places), Some(first)) = (&self.places, self.layers.first().and_then(|layer| layer.maps.clone()))
-        else {
+        let (Some(boxes), Some(first)) = (&self.boxes, self.layers.first().and_then(|layer| layer.maps.clone())) else {
             return Ok(());
         };
         let mut maps = Vec::with_capacity(count as usize);
@@ -171,10 +170,10 @@ impl Outfit {
             for index in 1..=count {
                 let time = f64::from(index) * interval;
                 moving.record_pose(device, encoder, time);
-                let place = places.at(time);
+                let map_box = boxes.at(time);
                 let drawn = first.new_alike(device);
-                drawn.record(device, encoder, place, &[(moving.surface(), self.thickness)]);
-                maps.push((drawn, place));
+                drawn.record(device, encoder, map_box, &[(moving.surface(), self.thickness)]);
+                maps.push((drawn, map_box));
             }
         })?;
         self.posed = None;
@@ -273,7 +272,7 @@ impl Outfit {
         let time = self.time_of(interval + 1);
         let begins = self.posed.is_none();
         self.posed = Some(interval + 1);
-        if self.places.is_none() && !begins {
+        if self.boxes.is_none() && !begins {
             return Ok(());
         }
         recorder(Part::Maps, &mut |encoder| self.record_maps(device, encoder, time))
@@ -284,16 +283,16 @@ impl Outfit {
         let innermost = self.layers.first().and_then(|layer| layer.maps.as_ref());
         if let Some(kept) = &self.kept {
             let index = (time / kept.interval).round() as usize + kept.maps.len() - 1;
-            let (maps, place) = &kept.maps[index % kept.maps.len()];
-            self.shown = Some(*place);
+            let (maps, map_box) = &kept.maps[index % kept.maps.len()];
+            self.shown = Some(*map_box);
             if let Some(innermost) = innermost {
-                innermost.record_copy(device, encoder, maps, *place);
+                innermost.record_copy(device, encoder, maps, *map_box);
             }
             return;
         }
         self.moving.iter_mut().for_each(|body| body.record_pose(device, encoder, time));
-        if let Some(places) = &self.places {
-            self.shown = Some(places.at(time));
+        if let Some(boxes) = &self.boxes {
+            self.shown = Some(boxes.at(time));
         }
         if let (Some(innermost), Some(shown)) = (innermost, self.shown) {
             let surfaces = self.still.iter().chain(self.moving.iter().map(MovingBody::surface));
@@ -348,7 +347,7 @@ impl Outfit {
     }
 
     /// Where the maps stand.
-    pub(crate) fn shown(&self) -> Option<MapFrame> {
+    pub(crate) fn shown(&self) -> Option<MapBox> {
         self.shown
     }
 

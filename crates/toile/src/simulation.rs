@@ -1,15 +1,15 @@
 //! A scene that runs: its garments are sewn, eased and draped, then everything goes on together.
 
+use crate::boxes::{Boxes, around_both};
 use crate::clock::{Advance, Clock};
 use crate::fitting::Fitting;
 use crate::outfit::{Bodies, Outfit, Part, Recorder, maps_of_round, maps_per_frame};
 use crate::piece::Piece;
-use crate::places::{Places, around_both};
 use crate::{Cloth, Colliders, Error, pose};
 use glam::{Vec3, Vec4};
 use std::sync::Arc;
 use toile_gpu::{Arrival, BodyMaps, Surface};
-use toile_model::{Dressing, DressingStage, MapFrame, Model, StepSettings};
+use toile_model::{Dressing, DressingStage, MapBox, Model, StepSettings};
 use toile_scene::{Body, Mesh, MovingMesh, Scene, Settings};
 
 /// Time that garments have to hang quietly once the body has gone over to the start of its motion [s].
@@ -68,7 +68,7 @@ pub struct Simulation {
     /// The way of the body from the pose that garments are sewn in to the start of its motion.
     pub(crate) way: Option<MovingMesh>,
     /// Where the maps of the run stand, if its bodies decide that.
-    places: Option<Places>,
+    boxes: Option<Boxes>,
     pub(crate) pieces: Vec<Piece>,
     pub(crate) keeps_maps: bool,
     pub(crate) clock: Clock,
@@ -118,7 +118,7 @@ impl Simulation {
     ///
     /// # Errors
     /// [`Error::Model`] when a garment cannot be meshed, [`Error::Steps`] when a frame would take too many steps, [`Error::Body`] when a body
-    /// leads to no place. What does not fit the device is told by [`Simulation::advance`].
+    /// leads to no map_box. What does not fit the device is told by [`Simulation::advance`].
     pub fn new(device: &wgpu::Device, scene: &Scene) -> Result<Self, Error> {
         let pieces = Piece::all(scene)?;
         let way = match moving_body(scene) {
@@ -158,7 +158,7 @@ impl Simulation {
         let mut simulation = Self {
             device: device.clone(),
             way: way.filter(|_| pieces.iter().any(|piece| piece.open.is_some())),
-            places: None,
+            boxes: None,
             keeps_maps: false,
             clock: Clock::default(),
             phase: Phase::Dressing(Box::default()),
@@ -167,9 +167,9 @@ impl Simulation {
             pieces,
         };
         if !simulation.bodies.moving.is_empty() {
-            // Before any work: a body may lead to no place.
+            // Before any work: a body may lead to no map_box.
             let bodies = &simulation.bodies;
-            simulation.places = Some(simulation.places_of(&bodies.moving, &bounds_of(&bodies.still))?);
+            simulation.boxes = Some(simulation.boxes_of(&bodies.moving, &bounds_of(&bodies.still))?);
         }
         Ok(simulation)
     }
@@ -329,31 +329,31 @@ impl Simulation {
         recorder: &mut Recorder<'_>,
     ) -> Result<Option<Arc<BodyMaps>>, Error> {
         let meshes = self.dressing_meshes();
-        let Some(place) = self.still_place(&meshes, garment_bounds) else { return Ok(None) };
-        let maps = BodyMaps::new(&self.device, place, false)?;
+        let Some(map_box) = self.still_box(&meshes, garment_bounds) else { return Ok(None) };
+        let maps = BodyMaps::new(&self.device, map_box, false)?;
         let mut surfaces: Vec<Surface> = meshes.iter().map(|mesh| Surface::new(&self.device, mesh)).collect();
         surfaces.extend(garments.iter().map(|done| Surface::from(done.cloth.frame())));
         let thickness = self.thickness();
         let drawn: Vec<_> = surfaces.iter().map(|surface| (surface, thickness)).collect();
-        recorder(Part::Maps, &mut |encoder| maps.record(&self.device, encoder, place, &drawn))?;
+        recorder(Part::Maps, &mut |encoder| maps.record(&self.device, encoder, map_box, &drawn))?;
         Ok(Some(Arc::new(maps)))
     }
 
     /// The box of maps of surfaces at rest.
-    fn still_place(&self, meshes: &[&Mesh], garment_bounds: &[[Vec3; 2]]) -> Option<MapFrame> {
+    fn still_box(&self, meshes: &[&Mesh], garment_bounds: &[[Vec3; 2]]) -> Option<MapBox> {
         let thickness = self.thickness();
         let bounds = meshes.iter().filter_map(|mesh| mesh.bounds()).chain(garment_bounds.iter().copied());
         let thick = bounds.map(|[low, high]| [low - thickness, high + thickness]);
-        Some(MapFrame::around(thick.reduce(around_both)?, self.settings.texel as f32))
+        Some(MapBox::around(thick.reduce(around_both)?, self.settings.texel as f32))
     }
 
     fn thickness(&self) -> f32 {
         self.settings.fabric.thickness as f32
     }
 
-    fn places_of(&self, moving: &[MovingMesh], still: &[[Vec3; 2]]) -> Result<Places, Error> {
+    fn boxes_of(&self, moving: &[MovingMesh], still: &[[Vec3; 2]]) -> Result<Boxes, Error> {
         let thickness = self.pieces.iter().map(|piece| piece.step.thickness).fold(0.0, f32::max);
-        Places::new(moving, still, self.settings.texel as f32, thickness, self.pieces.len() > 1)
+        Boxes::new(moving, still, self.settings.texel as f32, thickness, self.pieces.len() > 1)
     }
 
     /// Begins what comes after the present phase: the way to the start of the motion, or the run.
@@ -403,17 +403,17 @@ impl Simulation {
             None => self.bodies.clone(),
         };
         let mut still = bounds_of(&bodies.still);
-        let places = match (on_the_way, &self.places) {
-            (Some(_), _) => Some(self.places_of(&bodies.moving, &still)?),
+        let boxes = match (on_the_way, &self.boxes) {
+            (Some(_), _) => Some(self.boxes_of(&bodies.moving, &still)?),
             (None, Some(known)) => Some(known.clone()),
             (None, None) if self.pieces.len() > 1 => {
                 still.extend(garment_bounds);
                 still.extend(self.pieces.iter().filter(|piece| piece.open.is_none()).filter_map(Piece::reach));
-                Some(self.places_of(&[], &still)?)
+                Some(self.boxes_of(&[], &still)?)
             }
             (None, None) => None,
         };
-        let still_at = self.still_place(&bodies.still.iter().collect::<Vec<_>>(), &[]);
+        let still_box = self.still_box(&bodies.still.iter().collect::<Vec<_>>(), &[]);
         let rate = self.settings.frame_rate;
         let first = self.pieces.first().map_or(1, |piece| piece.step.steps_per_frame);
         let parts = maps_per_frame(first, rate);
@@ -429,7 +429,7 @@ impl Simulation {
             Phase::Dressing(dressed) => dressed.done.last().map(|done| &done.cloth),
             Phase::Together { outfit, .. } => outfit.cloths().next(),
         };
-        Outfit::new(&self.device, &bodies, &cloths, places, still_at, rate, alike)
+        Outfit::new(&self.device, &bodies, &cloths, boxes, still_box, rate, alike)
     }
 
     /// Has the maps of a whole round of the body drawn once, when the run begins, and copied from then on; how many bytes they take. D §7, W §6.
@@ -445,7 +445,7 @@ impl Simulation {
         let rate = self.settings.frame_rate;
         let first = self.pieces.first().map_or(1, |piece| piece.step.steps_per_frame);
         let interval = 1.0 / rate / f64::from(maps_per_frame(first, rate));
-        let ([body], [], Some(places)) = (self.bodies.moving.as_slice(), self.bodies.still.as_slice(), &self.places)
+        let ([body], [], Some(boxes)) = (self.bodies.moving.as_slice(), self.bodies.still.as_slice(), &self.boxes)
         else {
             return Err(Error::Round { duration: 0.0, interval });
         };
@@ -453,7 +453,7 @@ impl Simulation {
             return Err(Error::Round { duration: body.duration(), interval });
         };
         self.keeps_maps = true;
-        Ok(u64::from(count) * BodyMaps::bytes_over(&places.at(0.0), true))
+        Ok(u64::from(count) * BodyMaps::bytes_over(&boxes.at(0.0), true))
     }
 
     /// The cloths that are on the device, from the inside out: while garments are dressed those that are, and the one that is being dressed.
@@ -505,7 +505,7 @@ impl Simulation {
     }
 
     /// Where the maps of the cloths stand; `None` without maps and while garments are dressed.
-    pub fn map_place(&self) -> Option<MapFrame> {
+    pub fn map_box(&self) -> Option<MapBox> {
         match &self.phase {
             Phase::Dressing(_) => None,
             Phase::Together { outfit, .. } => outfit.shown(),

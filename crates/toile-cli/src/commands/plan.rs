@@ -1,9 +1,10 @@
 //! `toile plan`: what a scene gets, without an adapter.
 
 use crate::args::PlanOf;
-use crate::commands::{outfit, print};
+use crate::commands::outfit;
 use crate::pattern::{self, Pattern};
 use crate::simulate::sphere;
+use crate::stdout::print;
 use crate::steps::step_settings;
 use anyhow::Result;
 use glam::Vec3;
@@ -12,7 +13,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use toile::files::{read_scene, write_atomically};
 use toile::gpu::{BodyMaps, Kernel, KernelRuns, Pass, Plan, kernel_runs};
-use toile::model::{MapFrame, Maps, Merge, Model, Needs, StepSettings};
+use toile::model::{MapBox, Maps, Merge, Model, Needs, StepSettings};
 use toile::scene::{Body, Cloth, Scene};
 
 /// Prints passes, dispatches and bytes of every cloth of a scene; draws the limits of all of them when a picture is wanted.
@@ -93,7 +94,7 @@ fn plans(scene: &Scene, patterns: &[Pattern]) -> Result<Vec<ClothPlan>> {
             Some(sewn) => vec![("open", open, step(open)?.sewing()), ("sewn", sewn, step(sewn)?.draping())],
         };
         let map_bytes =
-            bounds.map_or(0, |b| BodyMaps::bytes_over(&MapFrame::around(b, scene.settings.texel as f32), false));
+            bounds.map_or(0, |b| BodyMaps::bytes_over(&MapBox::around(b, scene.settings.texel as f32), false));
         for (state, model, settings) in &models {
             let needs = Needs::new(model, settings, if bounds.is_some() { Maps::Still } else { Maps::None }, sphere);
             plans.push(ClothPlan::new(name, state, model, settings, &needs, map_bytes));

@@ -2,13 +2,13 @@
 
 use crate::adapter;
 use crate::args::{Backend, Rules};
-use crate::commands::print;
 use crate::engine::{Computer, State};
 use crate::interrupt::Interrupted;
 use crate::output::{self, sphere_mesh};
 use crate::picture::{self, Drawn, View};
 use crate::progress::Progress;
 use crate::simulate::sphere;
+use crate::stdout::print;
 use crate::steps::step_settings;
 use anyhow::{Context, Result, bail};
 use glam::{DVec3, Vec3};

@@ -1,6 +1,6 @@
 //! How a cloth lies on what it wears under it: exact distances in f64, not those of the maps.
 
-use super::measures::max_and_p99;
+use super::largest::max_and_p99;
 use crate::worn::Worn;
 use glam::DVec3;
 use toile::scene::{Body, Mesh, Sphere};

@@ -1,9 +1,9 @@
 //! The maps of a body by casting a ray through every texel's centre. W §4.1 to §4.3.
 
-use super::BodyMaps;
+use super::body_maps::BodyMaps;
 use glam::{DVec2, Vec3, dvec2};
 use std::ops::RangeInclusive;
-use toile_model::MapFrame;
+use toile_model::MapBox;
 use toile_scene::Mesh;
 
 /// A mesh that the maps show.
@@ -26,15 +26,15 @@ pub struct Surface<'a> {
 /// When no surface has a vertex.
 pub fn render_maps(surfaces: &[Surface], texel: f32) -> BodyMaps {
     let offset: Vec<Vec<Vec3>> = surfaces.iter().map(offset_positions).collect();
-    render_maps_in(surfaces, MapFrame::around(bounds(&offset), texel))
+    render_maps_in(surfaces, MapBox::around(bounds(&offset), texel))
 }
 
-/// Renders the maps of all surfaces into a frame. They have velocities when a surface has.
-pub fn render_maps_in(surfaces: &[Surface], frame: MapFrame) -> BodyMaps {
-    let count = frame.columns as usize * frame.rows as usize;
+/// Renders the maps of all surfaces into a box. They have velocities when a surface has.
+pub fn render_maps_in(surfaces: &[Surface], map_box: MapBox) -> BodyMaps {
+    let count = map_box.columns as usize * map_box.rows as usize;
     let moving = surfaces.iter().any(|surface| surface.velocities.is_some());
     let mut maps = BodyMaps {
-        frame,
+        map_box,
         depth: [vec![1.0; count], vec![1.0; count]],
         normals: [vec![Vec3::ZERO; count], vec![Vec3::ZERO; count]],
         velocities: moving.then(|| [vec![Vec3::ZERO; count], vec![Vec3::ZERO; count]]),
@@ -67,16 +67,16 @@ fn bounds(surfaces: &[Vec<Vec3>]) -> [Vec3; 2] {
 
 /// Draws one triangle into both layers.
 fn draw(maps: &mut BodyMaps, corners: [Vec3; 3], normals: [Vec3; 3], velocities: [Vec3; 3]) {
-    let frame = maps.frame;
-    let [a, b, c] = corners.map(|corner| texel_position(&frame, corner));
+    let map_box = maps.map_box;
+    let [a, b, c] = corners.map(|corner| texel_position(&map_box, corner));
     let area = (b - a).perp_dot(c - a);
     if !(area.abs() > 0.0) {
         return;
     }
     let low = a.min(b).min(c);
     let high = a.max(b).max(c);
-    for row in centres(low.y, high.y, frame.rows) {
-        for column in centres(low.x, high.x, frame.columns) {
+    for row in centres(low.y, high.y, map_box.rows) {
+        for column in centres(low.x, high.x, map_box.columns) {
             let centre = dvec2(f64::from(column), f64::from(row));
             let shares = [
                 (c - b).perp_dot(centre - b) / area,
@@ -84,7 +84,7 @@ fn draw(maps: &mut BodyMaps, corners: [Vec3; 3], normals: [Vec3; 3], velocities:
                 (b - a).perp_dot(centre - a) / area,
             ];
             if shares.iter().all(|share| *share >= 0.0) {
-                let texel = row as usize * frame.columns as usize + column as usize;
+                let texel = row as usize * map_box.columns as usize + column as usize;
                 plot(maps, texel, shares.map(|share| share as f32), corners.map(|p| p.z), normals, velocities);
             }
         }
@@ -93,10 +93,10 @@ fn draw(maps: &mut BodyMaps, corners: [Vec3; 3], normals: [Vec3; 3], velocities:
 
 /// Position in the maps where texel centres are the whole numbers: x is the column, y the row. In f64, so that two triangles
 /// with a common edge leave no centre between them.
-fn texel_position(frame: &MapFrame, position: Vec3) -> DVec2 {
+fn texel_position(map_box: &MapBox, position: Vec3) -> DVec2 {
     dvec2(
-        (f64::from(position.x) - f64::from(frame.origin_x)) / f64::from(frame.texel) - 0.5,
-        (f64::from(frame.origin_y) - f64::from(position.y)) / f64::from(frame.texel) - 0.5,
+        (f64::from(position.x) - f64::from(map_box.origin_x)) / f64::from(map_box.texel) - 0.5,
+        (f64::from(map_box.origin_y) - f64::from(position.y)) / f64::from(map_box.texel) - 0.5,
     )
 }
 
@@ -119,10 +119,10 @@ fn plot(
     velocities: [Vec3; 3],
 ) {
     let [s, t, u] = shares;
-    let range = maps.frame.z_front - maps.frame.z_back;
+    let range = maps.map_box.z_front - maps.map_box.z_back;
     let z = heights[0] * s + heights[1] * t + heights[2] * u;
     let normal = normals[0] * s + normals[1] * t + normals[2] * u;
-    let depth = [(maps.frame.z_front - z) / range, (z - maps.frame.z_back) / range];
+    let depth = [(maps.map_box.z_front - z) / range, (z - maps.map_box.z_back) / range];
     for (layer, towards_camera) in [1.0, -1.0].into_iter().enumerate() {
         if depth[layer] < maps.depth[layer][texel] {
             maps.depth[layer][texel] = depth[layer];

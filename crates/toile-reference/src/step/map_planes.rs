@@ -79,7 +79,7 @@ struct View<'a> {
 
 impl View<'_> {
     fn look(&self, position: Vec3, velocity: Vec3, dt: f32) -> Option<Probe> {
-        let frame = &self.maps.frame;
+        let map_box = &self.maps.map_box;
         let coming = velocity * dt;
         let next = position + coming;
         let drift = self.drift(next, velocity);
@@ -87,7 +87,7 @@ impl View<'_> {
         let (place, side) = self.entry(position + drift * self.lag.start, way, next + drift * self.lag.end);
         let [across, down] = place.texels.map(|texels| texels - 0.5);
         let [left, top] = [across.floor(), down.floor()];
-        if !(left >= 0.0 && left + 1.0 < frame.columns as f32 && top >= 0.0 && top + 1.0 < frame.rows as f32) {
+        if !(left >= 0.0 && left + 1.0 < map_box.columns as f32 && top >= 0.0 && top + 1.0 < map_box.rows as f32) {
             return None;
         }
         let [right_share, bottom_share] = [across - left, down - top];
@@ -107,7 +107,7 @@ impl View<'_> {
         let mut distance = 0.0;
         let mut velocity = Vec3::ZERO;
         for (plane, (_, _, weight)) in planes.iter().zip(corners) {
-            if plane.hit && plane.distance >= nearest - SAME_SURFACE * frame.texel {
+            if plane.hit && plane.distance >= nearest - SAME_SURFACE * map_box.texel {
                 weight_sum += weight;
                 normal += plane.normal * weight;
                 distance += plane.distance * weight;
@@ -154,7 +154,7 @@ impl View<'_> {
                 _ => (last, Standing::Inside),
             };
         }
-        let places = (way.truncate().length() / self.maps.frame.texel).ceil().clamp(1.0, WAY_PLACES);
+        let places = (way.truncate().length() / self.maps.map_box.texel).ceil().clamp(1.0, WAY_PLACES);
         let mut k = 1.0;
         while k <= places {
             let place = if k < places { self.place(start + way * (k / places)).centred() } else { last };
@@ -171,8 +171,8 @@ impl View<'_> {
     }
 
     fn place(&self, point: Vec3) -> Place {
-        let frame = &self.maps.frame;
-        let texels = [(point.x - frame.origin_x) / frame.texel, (frame.origin_y - point.y) / frame.texel];
+        let map_box = &self.maps.map_box;
+        let texels = [(point.x - map_box.origin_x) / map_box.texel, (map_box.origin_y - point.y) / map_box.texel];
         Place { texels, z: point.z }
     }
 
@@ -187,35 +187,35 @@ impl View<'_> {
 
     /// The texel that holds a place, where it shows a surface.
     fn texel_under(&self, texels: [f32; 2]) -> Option<Texel> {
-        let frame = &self.maps.frame;
+        let map_box = &self.maps.map_box;
         let [column, row] = texels.map(f32::floor);
-        if !(column >= 0.0 && column < frame.columns as f32 && row >= 0.0 && row < frame.rows as f32) {
+        if !(column >= 0.0 && column < map_box.columns as f32 && row >= 0.0 && row < map_box.rows as f32) {
             return None;
         }
         self.texel(column, row)
     }
 
     fn texel(&self, column: f32, row: f32) -> Option<Texel> {
-        let frame = &self.maps.frame;
-        let index = row as usize * frame.columns as usize + column as usize;
+        let map_box = &self.maps.map_box;
+        let index = row as usize * map_box.columns as usize + column as usize;
         let [depth_front, depth_back] = [self.maps.depth[0][index], self.maps.depth[1][index]];
-        let range = frame.z_front - frame.z_back;
-        let [front, back] = [frame.z_front - depth_front * range, frame.z_back + depth_back * range];
+        let range = map_box.z_front - map_box.z_back;
+        let [front, back] = [map_box.z_front - depth_front * range, map_box.z_back + depth_back * range];
         (depth_front < 1.0 && depth_back < 1.0).then_some(Texel { index, front, back })
     }
 
     /// What one texel says to a point at `position`: the plane through the texel's centre on the entered or nearer side.
     fn plane(&self, position: Vec3, z: f32, side: Standing, column: f32, row: f32) -> Probe {
-        let frame = &self.maps.frame;
+        let map_box = &self.maps.map_box;
         let Some(texel) = self.texel(column, row) else { return Probe::default() };
-        let reach = REACH * frame.texel;
+        let reach = REACH * map_box.texel;
         let reaches_front = z < texel.front + reach || side == Standing::Behind;
         let reaches_back = z > texel.back - reach || side == Standing::InFront;
         if !(reaches_front && reaches_back) {
             return Probe::default();
         }
-        let x = frame.origin_x + (column + 0.5) * frame.texel;
-        let y = frame.origin_y - (row + 0.5) * frame.texel;
+        let x = map_box.origin_x + (column + 0.5) * map_box.texel;
+        let y = map_box.origin_y - (row + 0.5) * map_box.texel;
         let seen = [(0, texel.front), (1, texel.back)].map(|(layer, depth)| {
             let normal = self.maps.normals[layer][texel.index];
             let velocity = self.maps.velocities.as_ref().map_or(Vec3::ZERO, |layers| layers[layer][texel.index]);

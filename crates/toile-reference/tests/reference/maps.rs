@@ -8,14 +8,14 @@ const CENTRE: Vec3 = vec3(0.3, 0.7, -0.2);
 
 /// World x and y of the centre of each texel with its index.
 fn centres(maps: &BodyMaps) -> Vec<(usize, f32, f32)> {
-    let frame = maps.frame;
-    let centres = (0..frame.rows).flat_map(|row| (0..frame.columns).map(move |column| (column, row)));
+    let map_box = maps.map_box;
+    let centres = (0..map_box.rows).flat_map(|row| (0..map_box.columns).map(move |column| (column, row)));
     centres
         .map(|(column, row)| {
             (
-                (row * frame.columns + column) as usize,
-                frame.origin_x + (column as f32 + 0.5) * frame.texel,
-                frame.origin_y - (row as f32 + 0.5) * frame.texel,
+                (row * map_box.columns + column) as usize,
+                map_box.origin_x + (column as f32 + 0.5) * map_box.texel,
+                map_box.origin_y - (row as f32 + 0.5) * map_box.texel,
             )
         })
         .collect()
@@ -23,7 +23,7 @@ fn centres(maps: &BodyMaps) -> Vec<(usize, f32, f32)> {
 
 /// Largest differences of height [m] and of normal [1] from a sphere of `radius` [m] in the texels of its inner 90 %.
 fn sphere_errors(maps: &BodyMaps, radius: f32) -> (f32, f32) {
-    let range = maps.frame.z_front - maps.frame.z_back;
+    let range = maps.map_box.z_front - maps.map_box.z_back;
     let mut errors = (0.0_f32, 0.0_f32);
     for (texel, x, y) in centres(maps) {
         let [dx, dy] = [x - CENTRE.x, y - CENTRE.y];
@@ -33,8 +33,8 @@ fn sphere_errors(maps: &BodyMaps, radius: f32) -> (f32, f32) {
             assert_eq!(depths, [1.0, 1.0], "a texel outside the sphere shows something");
         } else if reach < 0.9 {
             let dz = (radius * radius - dx * dx - dy * dy).sqrt();
-            let front = maps.frame.z_front - depths[0] * range;
-            let back = maps.frame.z_back + depths[1] * range;
+            let front = maps.map_box.z_front - depths[0] * range;
+            let back = maps.map_box.z_back + depths[1] * range;
             errors.0 = errors.0.max((front - CENTRE.z - dz).abs()).max((back - CENTRE.z + dz).abs());
             for (layer, z) in [dz, -dz].into_iter().enumerate() {
                 let normal = vec3(dx, dy, z) / radius;
@@ -78,7 +78,7 @@ fn row_0_is_the_top_and_column_0_the_left() {
     ];
     let surfaces = [&big, &flag].map(|mesh| Surface { mesh, thickness: 0.0, velocities: None });
     let maps = render_maps(&surfaces, 0.01);
-    let range = maps.frame.z_front - maps.frame.z_back;
+    let range = maps.map_box.z_front - maps.map_box.z_back;
     for (texel, x, y) in centres(&maps) {
         let inside = |low: f32, high: f32, value: f32| value > low + 1e-4 && value < high - 1e-4;
         let expected = if inside(0.1, 0.2, x) && inside(0.1, 0.3, y) {
@@ -90,8 +90,8 @@ fn row_0_is_the_top_and_column_0_the_left() {
         };
         match expected {
             Some((front, back)) => {
-                assert!((maps.frame.z_front - maps.depth[0][texel] * range - front).abs() < 1e-6);
-                assert!((maps.frame.z_back + maps.depth[1][texel] * range - back).abs() < 1e-6);
+                assert!((maps.map_box.z_front - maps.depth[0][texel] * range - front).abs() < 1e-6);
+                assert!((maps.map_box.z_back + maps.depth[1][texel] * range - back).abs() < 1e-6);
                 assert_eq!((maps.normals[0][texel], maps.normals[1][texel]), (Vec3::Z, Vec3::NEG_Z));
             }
             None => assert_eq!([maps.depth[0][texel], maps.depth[1][texel]], [1.0, 1.0]),
@@ -109,7 +109,7 @@ fn the_nearest_surface_is_seen_whatever_the_order() {
     let maps = render_maps(&surfaces, 0.01);
     let turned = render_maps(&[surfaces[1], surfaces[0]], 0.01);
     assert_eq!(maps, turned);
-    let texel = 10 * maps.frame.columns as usize + 10;
+    let texel = 10 * maps.map_box.columns as usize + 10;
     assert!(maps.depth[0][texel] < 0.01 && maps.depth[1][texel] < 0.01);
 }
 

@@ -1,11 +1,11 @@
 //! What the maps of a body cost in accuracy, against its exact mesh: by texel, coding, and how the thickness is added.
 
-use crate::fixtures::body;
 use crate::page::{Axis, Block, Cell, Plot, Series, SeriesStyle, Table};
-use crate::{Lab, LabError};
 use glam::{DVec3, Vec3};
-use toile::model::{MapFrame, Model, StepSettings};
+use toile::model::{MapBox, Model, StepSettings};
 use toile::scene::{Mesh, Settings};
+use toile_lab::scenes::body;
+use toile_lab::{Lab, LabError};
 use toile_reference::ExactDistance;
 use toile_reference::maps::{BodyMaps, Surface, render_maps_in};
 use toile_reference::step::sample_maps;
@@ -95,24 +95,24 @@ impl Shell {
 
 /// Whether maps show a place of the surface, within what a slope of three and the texels' size make of the depth.
 fn is_seen(maps: &BodyMaps, place: DVec3) -> bool {
-    let frame = maps.frame;
-    let texel = f64::from(frame.texel);
-    let column = ((place.x - f64::from(frame.origin_x)) / texel).floor();
-    let row = ((f64::from(frame.origin_y) - place.y) / texel).floor();
-    if !(column >= 0.0 && row >= 0.0 && column < f64::from(frame.columns) && row < f64::from(frame.rows)) {
+    let map_box = maps.map_box;
+    let texel = f64::from(map_box.texel);
+    let column = ((place.x - f64::from(map_box.origin_x)) / texel).floor();
+    let row = ((f64::from(map_box.origin_y) - place.y) / texel).floor();
+    if !(column >= 0.0 && row >= 0.0 && column < f64::from(map_box.columns) && row < f64::from(map_box.rows)) {
         return false;
     }
-    let index = row as usize * frame.columns as usize + column as usize;
-    let range = f64::from(frame.z_front - frame.z_back);
-    let front = f64::from(frame.z_front) - f64::from(maps.depth[0][index]) * range;
-    let back = f64::from(frame.z_back) + f64::from(maps.depth[1][index]) * range;
+    let index = row as usize * map_box.columns as usize + column as usize;
+    let range = f64::from(map_box.z_front - map_box.z_back);
+    let front = f64::from(map_box.z_front) - f64::from(maps.depth[0][index]) * range;
+    let back = f64::from(map_box.z_back) + f64::from(maps.depth[1][index]) * range;
     [front, back].iter().any(|z| (place.z - z).abs() < 3.0 * texel)
 }
 
 /// What the points of a shell meet in the maps of a body, against its exact mesh.
 pub fn map_error(body: &Mesh, exact: &ExactDistance, shell: &Shell, probing: Probing) -> MapError {
     let maps = draw(body, probing, THICKNESS);
-    let settings = Settings::new(crate::fixtures::fabric());
+    let settings = Settings::new(toile_lab::scenes::fabric());
     let step = StepSettings::new(&settings, &Model::default());
     let probes = sample_maps(&shell.points, &vec![Vec3::ZERO; shell.points.len()], &maps, &step);
     let mut depths = [Vec::new(), Vec::new()];
@@ -178,10 +178,10 @@ fn draw(body: &Mesh, probing: Probing, thickness: f64) -> BodyMaps {
     let [low, high] = body.bounds().unwrap_or_default();
     // Room for the thickness and for the layers of texels.
     let room = thickness as f32 + texel;
-    let frame = MapFrame::around([low - room, high + room], texel);
+    let map_box = MapBox::around([low - room, high + room], texel);
     let by_normals = probing.offset == Offset::Normals;
     let along_normals = if by_normals { thickness as f32 } else { 0.0 };
-    let mut maps = render_maps_in(&[Surface { mesh: body, thickness: along_normals, velocities: None }], frame);
+    let mut maps = render_maps_in(&[Surface { mesh: body, thickness: along_normals, velocities: None }], map_box);
     if !by_normals {
         add_layers(&mut maps, thickness);
     }
@@ -196,10 +196,10 @@ fn draw(body: &Mesh, probing: Probing, thickness: f64) -> BodyMaps {
 
 /// Moves the depths towards the cameras by the thickness, and lets the silhouette grow by layers of texels.
 fn add_layers(maps: &mut BodyMaps, thickness: f64) {
-    let frame = maps.frame;
-    let layers = (thickness / f64::from(frame.texel)).round().max(1.0) as u32;
-    let nearer = thickness as f32 / (frame.z_front - frame.z_back);
-    let [columns, rows] = [frame.columns as i64, frame.rows as i64];
+    let map_box = maps.map_box;
+    let layers = (thickness / f64::from(map_box.texel)).round().max(1.0) as u32;
+    let nearer = thickness as f32 / (map_box.z_front - map_box.z_back);
+    let [columns, rows] = [map_box.columns as i64, map_box.rows as i64];
     for side in 0..2 {
         maps.depth[side].iter_mut().filter(|depth| **depth < 1.0).for_each(|depth| *depth = (*depth - nearer).max(0.0));
         for _ in 0..layers {

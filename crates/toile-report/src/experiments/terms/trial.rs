@@ -1,14 +1,14 @@
 //! A scene as it is, or with one term changed.
 
-use crate::experiments::terms::{Scene, Term};
-use crate::fixtures::{ball, fabric, hanging_sheet, square};
-use crate::{Lab, LabError, Run};
+use crate::experiments::terms::term::{Scene, Term};
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
 use toile::Colliders;
 use toile::gpu::{BodyMaps, Surface};
-use toile::model::{Csr, MapFrame, Model, StepSettings};
+use toile::model::{Csr, MapBox, Model, StepSettings};
 use toile::scene::{Friction, Mesh, Rule, Settings, Sphere, SphereMotion, VelocityModification, Wind};
+use toile_lab::scenes::{ball, fabric, hanging_sheet, square};
+use toile_lab::{Lab, LabError, Run};
 
 /// Edge length of the texels of the moving sphere [m].
 const TEXEL: f32 = 0.01;
@@ -22,6 +22,18 @@ pub struct Trial {
     pub scene: Scene,
     /// The term that is left out; wind is added.
     pub changed: Option<Term>,
+}
+
+impl Term {
+    /// The trial that has it. Wind is no part of the scene as it is; all others are.
+    pub fn with(self) -> Trial {
+        Trial { scene: self.scene(), changed: (self == Self::Wind).then_some(self) }
+    }
+
+    /// The trial that lacks it.
+    pub fn without(self) -> Trial {
+        Trial { scene: self.scene(), changed: (self != Self::Wind).then_some(self) }
+    }
 }
 
 /// What came of it.
@@ -130,9 +142,9 @@ impl MovingBall {
         let swing = SphereMotion::Swing { amplitude: DVec3::new(0.4, 0.0, 0.0), period: 4.0 };
         let sphere = Sphere { motion: swing, ..ball() };
         let thickness = step.thickness;
-        let size = MapFrame::size_for(Vec3::splat(2.0 * reach(&sphere, thickness)), TEXEL);
-        let frame = frame_at(&sphere, 0.0, thickness, size);
-        let maps = Arc::new(BodyMaps::new(&lab.device, frame, with_velocities)?);
+        let size = MapBox::size_for(Vec3::splat(2.0 * reach(&sphere, thickness)), TEXEL);
+        let map_box = map_box_at(&sphere, 0.0, thickness, size);
+        let maps = Arc::new(BodyMaps::new(&lab.device, map_box, with_velocities)?);
         Ok(Self { sphere, maps, thickness, size, with_velocities })
     }
 
@@ -147,9 +159,9 @@ impl MovingBall {
             let velocity = ((centre - before) / INTERVAL).as_vec3();
             surface.velocities = Some(lab.vertex_buffer(&vec![velocity; mesh.positions.len()]));
         }
-        let frame = frame_at(&self.sphere, time, self.thickness, self.size);
+        let map_box = map_box_at(&self.sphere, time, self.thickness, self.size);
         let mut encoder = lab.device.create_command_encoder(&Default::default());
-        self.maps.record(&lab.device, &mut encoder, frame, &[(&surface, self.thickness)]);
+        self.maps.record(&lab.device, &mut encoder, map_box, &[(&surface, self.thickness)]);
         lab.queue.submit([encoder.finish()]);
     }
 }
@@ -158,7 +170,7 @@ fn reach(sphere: &Sphere, thickness: f32) -> f32 {
     sphere.radius as f32 + thickness + 2.0 * TEXEL
 }
 
-fn frame_at(sphere: &Sphere, time: f64, thickness: f32, size: [u32; 2]) -> MapFrame {
+fn map_box_at(sphere: &Sphere, time: f64, thickness: f32, size: [u32; 2]) -> MapBox {
     let [centre, reach] = [sphere.at(time).0.as_vec3(), Vec3::splat(reach(sphere, thickness))];
-    MapFrame::moving([centre - reach, centre + reach], TEXEL, size)
+    MapBox::moving([centre - reach, centre + reach], TEXEL, size)
 }
