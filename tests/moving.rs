@@ -96,20 +96,20 @@ fn the_device_skins_the_walking_woman_bit_for_bit() {
 #[test]
 fn the_velocity_map_shows_how_a_turning_body_moves() {
     let ball = rolling_ball();
-    let frame = box_at(&ball, 0.2, 0.01);
+    let map_box = box_at(&ball, 0.2, 0.01);
     let mut body = MovingBody::new(&gpu().device, &ball).expect("it fits the device");
     gpu().run(|encoder| {
         body.record_pose(&gpu().device, encoder, 0.199);
         body.record_pose(&gpu().device, encoder, 0.2);
     });
-    let maps = Layers::draw_surfaces(gpu(), &[(body.surface(), 0.0)], frame).expect("the device answers").read;
+    let maps = Layers::draw_surfaces(gpu(), &[(body.surface(), 0.0)], map_box).expect("the device answers").read;
     let layers = maps.velocities.as_ref().expect("a moving body");
     let mut seen = 0;
     for (side, (depth, velocities)) in maps.depth.iter().zip(layers).enumerate() {
         for (texel, velocity) in velocities.iter().enumerate().filter(|(texel, _)| depth[*texel] < 1.0) {
-            let [column, row] = [texel % frame.columns as usize, texel / frame.columns as usize];
-            let x = frame.origin_x + (column as f32 + 0.5) * frame.texel - 0.2;
-            let y = frame.origin_y - (row as f32 + 0.5) * frame.texel - 0.02;
+            let [column, row] = [texel % map_box.columns as usize, texel / map_box.columns as usize];
+            let x = map_box.origin_x + (column as f32 + 0.5) * map_box.texel - 0.2;
+            let y = map_box.origin_y - (row as f32 + 0.5) * map_box.texel - 0.02;
             // v + ω × r with ω = −2 rad/s around z.
             let expected = vec3(1.0 + 2.0 * y, 0.1 - 2.0 * x, 0.0);
             // Vertices go along chords, and the texel shows the last millisecond: 2 rad/s · 0.5 ms · 0.5 m/s.
@@ -153,11 +153,11 @@ fn whole_frames_on_a_moving_body_agree() {
 fn a_surface_between_two_poses_is_where_its_velocity_says() {
     let ball = rolling_ball();
     let interval = 1.0 / 60.0;
-    let frame = box_at(&ball, 0.3, 0.005);
+    let map_box = box_at(&ball, 0.3, 0.005);
     let [before, after] = [ball.at(0.3 - interval), ball.at(0.3)];
     let velocities = vertex_velocities(&before.positions, &after.positions, (1.0 / interval) as f32);
     let surface = Surface { mesh: &after, thickness: 0.0, velocities: Some(&velocities) };
-    let maps = render_maps_in(&[surface], frame);
+    let maps = render_maps_in(&[surface], map_box);
     let settings = StepSettings { swept: true, ..StepSettings::new(&sheet("4").1.settings, &Model::default()) };
     let mut worst: [f32; 2] = [0.0; 2];
     for (share, step) in [(0.0, 0), (0.5, 8), (0.95, 15)] {

@@ -10,9 +10,9 @@ pub(crate) struct Fitting {
     pub(crate) cloth: Cloth,
     pub(crate) dressing: Dressing,
     /// The step of the last status that was heard.
-    heard: Option<u64>,
+    pub(crate) heard: Option<u64>,
     /// The stage that the cloth has been handed over for.
-    stage: DressingStage,
+    pub(crate) stage: DressingStage,
 }
 
 impl Fitting {
@@ -33,11 +33,6 @@ impl Fitting {
         };
         let dressing = Dressing::new(&open.model, &open.sewing);
         Ok(Self { cloth, dressing, heard: None, stage: DressingStage::Sewing })
-    }
-
-    /// A garment that goes on from a state: the cloth is that of the stage.
-    pub(crate) fn resumed(cloth: Cloth, dressing: Dressing) -> Self {
-        Self { heard: Some(cloth.step()), stage: dressing.stage(), cloth, dressing }
     }
 
     /// Hears what the device has reported since the last time.

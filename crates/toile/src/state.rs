@@ -43,12 +43,21 @@ enum SavedStage {
 
 #[derive(Debug, Serialize, Deserialize)]
 struct SavedCloth {
-    /// How it is dressed, see [`Dressing::state`].
-    dressing: Option<[u64; 5]>,
+    /// How far it is dressed; `None` once all go together.
+    dressing: Option<SavedDressing>,
     step: u64,
     status: Option<Status>,
     /// Contents of the buffers that carry over from step to step, by name.
     buffers: Vec<(String, Vec<u32>)>,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct SavedDressing {
+    dressing: Dressing,
+    /// The stage that the cloth has been handed over for.
+    stage: DressingStage,
+    /// The step of the last status that was heard.
+    heard: Option<u64>,
 }
 
 impl Simulation {
@@ -58,13 +67,13 @@ impl Simulation {
     /// # Errors
     /// [`Error::Gpu`] when the device is lost, [`Error::Diverged`] when a particle is not finite.
     pub fn save(&self, queue: &wgpu::Queue) -> Result<Vec<u8>, Error> {
-        let save = |cloth: &Cloth, dressing: Option<&Dressing>| -> Result<SavedCloth, Error> {
+        let save = |cloth: &Cloth, dressing: Option<SavedDressing>| -> Result<SavedCloth, Error> {
             let read = |(name, buffer): (&'static str, &wgpu::Buffer)| {
                 let bytes = readback::read_buffer(&self.device, queue, buffer)?;
                 Ok((name.to_owned(), bytemuck::pod_collect_to_vec(&bytes)))
             };
             Ok(SavedCloth {
-                dressing: dressing.map(Dressing::state),
+                dressing,
                 step: cloth.step(),
                 buffers: cloth.state().map(read).collect::<Result<_, Error>>()?,
                 status: cloth.status()?,
@@ -72,8 +81,13 @@ impl Simulation {
         };
         let (stage, garment_bounds, cloths) = match &self.phase {
             Phase::Dressing(dressed) => {
-                let done = dressed.done.iter().map(|done| (&done.cloth, &done.dressing));
-                let fitting = dressed.fitting.iter().map(|fitting| (&fitting.cloth, &fitting.dressing));
+                let done = dressed.done.iter().map(|Done { cloth, dressing, .. }| {
+                    let (dressing, stage) = (dressing.clone(), DressingStage::Draping);
+                    (cloth, SavedDressing { dressing, stage, heard: Some(cloth.step()) })
+                });
+                let fitting = dressed.fitting.iter().map(|Fitting { cloth, dressing, heard, stage }| {
+                    (cloth, SavedDressing { dressing: dressing.clone(), stage: *stage, heard: *heard })
+                });
                 let cloths = done.chain(fitting).map(|(cloth, dressing)| save(cloth, Some(dressing)));
                 (SavedStage::Dressing, Vec::new(), cloths.collect::<Result<_, _>>()?)
             }
@@ -134,8 +148,7 @@ impl Simulation {
         let mut dressed = Dressed::default();
         let garments = self.pieces.iter().filter_map(|piece| piece.open.as_ref().map(|open| (piece, open)));
         for ((piece, open), saved) in garments.zip(&state.cloths) {
-            let dressing = Dressing::new(&open.model, &open.sewing);
-            let dressing = saved.dressing.and_then(|state| dressing.resumed(state)).ok_or_else(damaged)?;
+            let SavedDressing { dressing, stage, heard } = saved.dressing.clone().ok_or_else(damaged)?;
             let inner: Option<Vec<_>> = dressed.done.iter().map(|done| done.bounds.known()).collect();
             let inner = inner.ok_or_else(damaged)?;
             let maps = self.draw_still_maps(&dressed.done, &inner, &mut |_, record| {
@@ -144,15 +157,15 @@ impl Simulation {
                 queue.submit([encoder.finish()]);
                 Ok(())
             })?;
-            let model = if dressing.stage() == DressingStage::Sewing { &open.model } else { &piece.model };
+            let model = if stage == DressingStage::Sewing { &open.model } else { &piece.model };
             let colliders = Colliders { maps, sphere: self.bodies.shapes.first().cloned() };
-            let mut cloth = Cloth::new(&self.device, model, &piece.settings_of(dressing.stage()), colliders)?;
+            let mut cloth = Cloth::new(&self.device, model, &piece.settings_of(stage), colliders)?;
             saved.write(queue, &mut cloth)?;
             if dressing.stage() == DressingStage::Dressed {
                 let bounds = Bounds::Known(saved.bounds().ok_or_else(damaged)?);
                 dressed.done.push(Done { cloth, dressing, bounds });
             } else {
-                dressed.fitting = Some(Fitting::resumed(cloth, dressing));
+                dressed.fitting = Some(Fitting { cloth, dressing, heard, stage });
             }
         }
         Ok(Phase::Dressing(Box::new(dressed)))

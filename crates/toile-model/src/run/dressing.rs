@@ -2,6 +2,7 @@
 
 use crate::{Model, Status, StepSettings};
 use glam::Vec3;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// Seams count as closed when no gap is wider than this [m].
@@ -22,7 +23,7 @@ const SEWING_DAMPING: f32 = 20.0;
 const DRAPING_DAMPING: f32 = 8.0;
 
 /// What a garment is doing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum DressingStage {
     /// Its seams are being closed, without gravity.
     Sewing,
@@ -34,13 +35,8 @@ pub enum DressingStage {
     Dressed,
 }
 
-impl DressingStage {
-    /// All of them, in their order.
-    const ALL: [Self; 4] = [Self::Sewing, Self::Easing, Self::Draping, Self::Dressed];
-}
-
 /// The way of one garment onto a body.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Dressing {
     stage: DressingStage,
     rest_energy: f32,
@@ -124,20 +120,6 @@ impl Dressing {
     /// Widest seam gap when the pairs were merged [m].
     pub fn seam_gap(&self) -> f32 {
         self.seam_gap
-    }
-
-    /// What a saved state keeps: stage, steps sewn, steps draped, bits of the seam gap, calm frames.
-    pub fn state(&self) -> [u64; 5] {
-        let gap = u64::from(self.seam_gap.to_bits());
-        [self.stage as u64, self.sewing_steps, self.draping_steps, gap, u64::from(self.calm_frames)]
-    }
-
-    /// Goes on from what [`Dressing::state`] gave; `None` when it is none of that.
-    pub fn resumed(self, [stage, sewing_steps, draping_steps, gap, calm_frames]: [u64; 5]) -> Option<Self> {
-        let stage = DressingStage::ALL.into_iter().find(|known| *known as u64 == stage)?;
-        let seam_gap = f32::from_bits(u32::try_from(gap).ok()?);
-        let calm_frames = u32::try_from(calm_frames).ok()?;
-        Some(Self { stage, sewing_steps, draping_steps, seam_gap, calm_frames, ..self })
     }
 
     /// Takes the status at the end of a frame and says what to do next. When [`DressingStage::Sewing`] becomes
