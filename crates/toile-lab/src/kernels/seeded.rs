@@ -337,7 +337,7 @@ fn pairs(
     };
     let mut limits = Vec::new();
     let mut seam_pairs = Vec::new();
-    for k in 0..(count + 2 * counts.others).min(counts.particles / 2) {
+    for k in 0..if counts.particles < 2 { 0 } else { count + 2 * counts.others } {
         let inside = (counts.others..counts.others + count).contains(&k);
         // Those of other colours may share particles: nothing may touch them.
         let ends = if inside {
