@@ -1,5 +1,5 @@
 //! A host with a renderer of its own: dresses a woman in a skirt, has her walk, and draws both offscreen with its own pipeline, straight
-//! from the buffers of the simulation. It writes `walk.png`: four moments of the walk.
+//! from the buffers of the simulation. It writes `out/walk.png`: four moments of the walk.
 //!
 //! `cargo run --release --example walk`
 
@@ -77,8 +77,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     for (moment, left) in moments.iter().zip((0..).step_by(SIZE[0] as usize)) {
         image::imageops::replace(&mut picture, moment, left, 0);
     }
-    picture.save("walk.png")?;
-    println!("wrote walk.png");
+    std::fs::create_dir_all("out")?;
+    picture.save("out/walk.png")?;
+    println!("wrote out/walk.png");
     Ok(())
 }
 
