@@ -3,17 +3,20 @@
 use crate::support::{advance, positions, rolling, start, walking};
 use toile_scene::Scene;
 
-/// Positions after half a second in calls of these seconds.
-fn after_half_a_second(scene: &Scene, seconds: impl Fn(u32) -> f64) -> Vec<Vec<u32>> {
+/// So long the cloth falls on the ball and is taken along [s].
+const SECONDS: f64 = 0.25;
+
+/// Positions after a quarter of a second in calls of these seconds.
+fn after_a_quarter(scene: &Scene, seconds: impl Fn(u32) -> f64) -> Vec<Vec<u32>> {
     let mut simulation = start(scene);
     let (mut asked, mut index) = (0.0, 0);
-    while asked < 0.5 - 1e-9 {
-        let next = seconds(index).min(0.5 - asked);
+    while asked < SECONDS - 1e-9 {
+        let next = seconds(index).min(SECONDS - asked);
         assert_eq!(advance(&mut simulation, next).dropped_seconds, 0.0);
         asked += next;
         index += 1;
     }
-    assert!((simulation.time() - 0.5).abs() < 1e-6, "{} s are simulated", simulation.time());
+    assert!((simulation.time() - SECONDS).abs() < 1e-6, "{} s are simulated", simulation.time());
     positions(&simulation)
 }
 
@@ -21,15 +24,15 @@ fn after_half_a_second(scene: &Scene, seconds: impl Fn(u32) -> f64) -> Vec<Vec<u
 fn the_same_motion_at_every_rate() {
     for sheet_count in [1, 2] {
         let scene = rolling(sheet_count);
-        let at_60 = after_half_a_second(&scene, |_| 1.0 / 60.0);
+        let at_60 = after_a_quarter(&scene, |_| 1.0 / 60.0);
         assert_eq!(at_60.len(), sheet_count);
         for rate in [24.0, 30.0, 144.0] {
             assert!(
-                after_half_a_second(&scene, |_| 1.0 / rate) == at_60,
+                after_a_quarter(&scene, |_| 1.0 / rate) == at_60,
                 "{sheet_count} sheets at {rate} calls per second"
             );
         }
-        let irregular = after_half_a_second(&scene, |index| [0.003, 0.0171, 0.0, 0.09, 0.0005][index as usize % 5]);
+        let irregular = after_a_quarter(&scene, |index| [0.003, 0.0171, 0.0, 0.09, 0.0005][index as usize % 5]);
         assert!(irregular == at_60, "{sheet_count} sheets at irregular times");
     }
 }

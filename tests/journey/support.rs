@@ -8,7 +8,7 @@ use toile_scene::{Body, Cloth, Mesh, MovingMesh, RigidKey, Scene};
 use toile_workspace::gpu;
 
 /// Edge length of a texel of the maps [m]: these tests ask what happens, not how exactly.
-const TEXEL: f64 = 0.01;
+const TEXEL: f64 = 0.02;
 
 /// Garments at 6 cm on the built-in woman, who walks by a clip.
 pub fn walking(garments: &[&str], clip: &str) -> Scene {
@@ -29,9 +29,9 @@ pub fn woman(clip: &str) -> MovingMesh {
     read_moving_body(&path, &options).unwrap_or_else(|error| panic!("{error}")).body
 }
 
-/// Sheets of 24 × 24 particles, one over the other, that fall on a ball which rolls along x at 1 m/s.
+/// Sheets of 16 × 16 particles, one over the other, that fall on a ball which rolls along x at 1 m/s.
 pub fn rolling(sheet_count: usize) -> Scene {
-    let mut ball = scene("ball", &[("n", "24"), ("sheet.0.corner", "[-0.5, 0.256, 0.5]")]);
+    let mut ball = scene("ball", &[("n", "16"), ("sheet.0.corner", "[-0.5, 0.256, 0.5]")]);
     let Cloth::Sheet(sheet) = ball.cloths.remove(0) else { panic!("it has a sheet") };
     for index in 0..sheet_count {
         let mut sheet = sheet.clone();
