@@ -14,7 +14,7 @@ use toile::gpu::{BodyMaps, Surface};
 use toile::model::{MapBox, Model, StepSettings};
 use toile::scene::{Mesh, Sheet};
 use toile::{Cloth, Colliders};
-use toile_workspace::sheet_settings;
+use toile_lab::fixtures::sheet_settings;
 
 /// Parallels of the ellipsoids; the triangles are 4·count².
 const PARALLELS: [u32; 3] = [16, 82, 164];

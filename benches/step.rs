@@ -13,7 +13,7 @@ use std::time::Instant;
 use support::Bench;
 use toile::model::StepSettings;
 use toile::{Cloth, Colliders};
-use toile_workspace::{scene, shapes, sheet_model};
+use toile_lab::fixtures::{scene, shapes, sheet_model};
 
 /// Frames whose recording is measured.
 const HOST_FRAMES: usize = 20;

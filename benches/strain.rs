@@ -15,7 +15,8 @@ use toile::gpu::readback;
 use toile::model::{Limit, Model, StepSettings};
 use toile::scene::{Polish, Rule, Scene, Settings, Sheet, Threshold, VelocityModification};
 use toile::{Cloth, Colliders, Strain};
-use toile_workspace::{Random, scene, shapes, sheet_model};
+use toile_lab::Random;
+use toile_lab::fixtures::{scene, shapes, sheet_model};
 
 const RULES: [(&str, Rule); 3] =
     [("none", Rule::None), ("predictive", Rule::Predictive), ("hierarchical", Rule::Hierarchical)];

@@ -1,8 +1,10 @@
 //! A missing adapter is a failure that says what to install, never a silent skip.
 
 use toile::Cloth;
+use toile_lab::INSTALL_HINT;
+use toile_lab::fixtures::{scene, sheet_model};
 use toile_model::StepSettings;
-use toile_workspace::{Gpu, INSTALL_HINT, gpu, scene, sheet_model};
+use toile_workspace::{Gpu, gpu};
 
 #[test]
 fn without_an_adapter_the_hint_says_what_to_install() {

@@ -3,8 +3,8 @@
 use std::collections::HashSet;
 use std::fmt::Write;
 use std::ops::Range;
+use toile_lab::fixtures::{GARMENTS, SCENES, garment, scene, settings, sheet_model};
 use toile_model::Model;
-use toile_workspace::{GARMENTS, SCENES, garment, scene, settings, sheet_model};
 
 /// Two items of one colour that share a particle, or an item that no colour has.
 fn fault(name: &str, ends: &[[u32; 2]], colours: &[Range<u32>]) -> Option<String> {

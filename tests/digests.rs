@@ -1,10 +1,10 @@
 //! What the reference makes of every fixture, as rounded digests that a reviewer can read.
 
 use std::fmt::Write as _;
+use toile_lab::fixtures::{GARMENTS, SCENES, body, garment, scene, settings, shapes, sheet_model};
 use toile_model::{Merge, Model, StepSettings};
 use toile_reference::maps::{Surface, render_maps};
 use toile_reference::{Colliders, Reference};
-use toile_workspace::{GARMENTS, SCENES, body, garment, scene, settings, shapes, sheet_model};
 
 #[test]
 fn digests_of_the_garments() {

@@ -3,9 +3,11 @@
 use glam::{DVec3, Vec3};
 use toile::{Cloth, Colliders};
 use toile_gpu::Solver;
+use toile_lab::Layers;
+use toile_lab::fixtures::{garment, settings};
 use toile_model::{Merge, Model, StepSettings};
 use toile_scene::Mesh;
-use toile_workspace::{Layers, advance, arrived, finish_frame, garment, gpu, settings};
+use toile_workspace::{advance, arrived, finish_frame, gpu};
 
 /// The skirt, its models and the steps of both.
 struct Skirt {
@@ -163,7 +165,7 @@ fn status_arrives_without_waiting_or_mapping_in_the_loop() {
 /// Recorded in one go or frame by frame: the same bits, also where a moving sphere is uploaded for each frame.
 #[test]
 fn frames_recorded_together_are_frames_recorded_one_by_one() {
-    let mut ball = toile_workspace::scene("moving-ball", &[("n", "17"), ("sheet.0.corner", "[-0.5, 0.256, 0.5]")]);
+    let mut ball = toile_lab::fixtures::scene("moving-ball", &[("n", "17"), ("sheet.0.corner", "[-0.5, 0.256, 0.5]")]);
     let toile_scene::Cloth::Sheet(sheet) = ball.cloths.remove(0) else { panic!("it has a sheet") };
     let toile_scene::Body::Shape(sphere) = ball.bodies.remove(0) else { panic!("it has a sphere") };
     let model = Model::from_sheet(&sheet, &ball.settings);

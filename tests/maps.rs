@@ -3,11 +3,14 @@
 use glam::{Vec3, vec3};
 use toile_gpu::{Colliders, Plan, Solver};
 use toile_kernels::{Need, TABLE};
+use toile_lab::Layers;
+use toile_lab::fixtures::{body, scene, sheet_model};
+use toile_lab::shapes::without_triangles;
 use toile_model::{MapBox, Model, StepSettings};
 use toile_reference::ExactDistance;
 use toile_reference::maps::{BodyMaps, Surface, render_maps};
 use toile_scene::{Mesh, Rule, VelocityModification};
-use toile_workspace::{Layers, body, gpu, scene, sheet_model, without_triangles};
+use toile_workspace::gpu;
 
 const TEXEL: f32 = 0.005;
 const THICKNESS: f32 = 0.004;

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use toile_gpu::{Pass, Plan};
 use toile_kernels::{Kernel, TABLE};
+use toile_lab::fixtures::{GARMENTS, SCENES, garment, scene, settings, shapes, sheet_model};
 use toile_model::{Maps, Model, Needs, StepSettings};
 use toile_scene::{Body, Polish, Rule, Scene, Settings, Wind};
-use toile_workspace::{GARMENTS, SCENES, garment, scene, settings, shapes, sheet_model};
 
 fn plan(model: &Model, settings: &StepSettings, bodies: &[Body]) -> Plan {
     let maps = if bodies.iter().any(|body| matches!(body, Body::Mesh(_))) { Maps::Still } else { Maps::None };

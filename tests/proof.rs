@@ -4,6 +4,7 @@
 use std::ops::RangeInclusive;
 use toile_kernels::Kernel;
 use toile_lab::kernels::Seeds;
+use toile_lab::scenes::{body, fabric, square};
 use toile_model::{Model, StepSettings};
 use toile_reference::{Colliders, ObjectSpace, Reference};
 use toile_report::experiments::hard_cases::CASES;
@@ -13,7 +14,6 @@ use toile_report::experiments::stability::{Corner, stable_step};
 use toile_report::experiments::validation::cusick::drape;
 use toile_report::experiments::validation::elastica::{ELASTICAS, Flexion, WEIGHT, cantilever_tip};
 use toile_report::experiments::validation::hanging::{CATENARIES, catenary_sag, hanging_strip};
-use toile_report::fixtures::{body, fabric, square};
 use toile_scene::{Fabric, Mesh, Rule, Settings};
 use toile_workspace::{gpu, lab};
 

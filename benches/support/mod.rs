@@ -1,8 +1,8 @@
 //! What the benches share: a device, and what a step costs on it.
 
 use toile::Cloth;
-use toile_report::StepCost;
-use toile_workspace::INSTALL_HINT;
+use toile_lab::INSTALL_HINT;
+use toile_lab::StepCost;
 
 /// A device with the limits of its adapter: large sheets need more than the defaults.
 pub struct Bench {

@@ -2,9 +2,11 @@
 
 use crate::life::Life;
 use std::sync::OnceLock;
+use toile_lab::Layers;
+use toile_lab::fixtures::{body, garment, settings};
 use toile_model::{Model, StepSettings};
 use toile_scene::{Fabric, Settings};
-use toile_workspace::{Layers, body, garment, gpu, settings};
+use toile_workspace::gpu;
 
 const SPACING: f64 = 0.03;
 

@@ -1,10 +1,30 @@
 //! The same cloth on the device and in the reference, compared after every step.
 
+use crate::drivers::{FLUSHES, first_beyond};
 use toile_gpu::{Colliders, Solver};
+use toile_lab::Layers;
+use toile_lab::kernels::vec3_words;
 use toile_model::{Merge, Model, Status, StepSettings};
 use toile_reference::Reference;
 use toile_scene::Shape;
-use toile_workspace::{Layers, arrived, first_difference, gpu, vec3_words};
+use toile_workspace::{arrived, gpu};
+
+/// A status without what may differ where the smallest numbers are nothing: the last bits, and which of two equally long springs
+/// is the longest.
+fn comparable(status: Status) -> Status {
+    if !*FLUSHES {
+        return status;
+    }
+    let rounded = |value: f32| (f64::from(value) * 1e5).round() as f32 * 1e-5;
+    Status {
+        speed_max: rounded(status.speed_max),
+        kinetic_energy: rounded(status.kinetic_energy),
+        elongation_max: rounded(status.elongation_max),
+        longest_limit: None,
+        seam_gap_max: rounded(status.seam_gap_max),
+        ..status
+    }
+}
 
 /// The same cloth on the device and in the reference.
 pub struct Life {
@@ -39,9 +59,9 @@ impl Life {
             }
             gpu().run(|encoder| self.solver.record_outputs(encoder));
             last = self.status();
-            assert_eq!(last, self.reference.status(), "{name}: status");
+            assert_eq!(comparable(last), comparable(self.reference.status()), "{name}: status");
             let normals = vec3_words(&gpu().vec3s(self.solver.normals()));
-            if let Some(fault) = first_difference(&normals, &vec3_words(&self.reference.normals())) {
+            if let Some(fault) = first_beyond(&normals, &vec3_words(&self.reference.normals())) {
                 panic!("{name}: normals after step {}: {fault}", self.solver.step());
             }
             if last.non_finite_count > 0 {
@@ -62,7 +82,7 @@ impl Life {
         let device = [self.solver.positions(), self.solver.velocities()].map(|buffer| vec3_words(&gpu().vec3s(buffer)));
         let reference = [self.reference.positions(), self.reference.velocities()].map(vec3_words);
         for (name, (device, reference)) in ["positions", "velocities"].into_iter().zip(device.iter().zip(&reference)) {
-            if let Some(difference) = first_difference(device, reference) {
+            if let Some(difference) = first_beyond(device, reference) {
                 return Some(format!("{name}: {difference}"));
             }
         }
@@ -70,14 +90,14 @@ impl Life {
             // The buffer is filled up to a whole vec4.
             let device = &gpu().words(buffer)[..self.reference.limit_impulses().len()];
             let reference: Vec<u32> = self.reference.limit_impulses().iter().map(|impulse| impulse.to_bits()).collect();
-            if let Some(difference) = first_difference(device, &reference) {
+            if let Some(difference) = first_beyond(device, &reference) {
                 return Some(format!("impulses of limits: {difference}"));
             }
         }
         // The directional rule asks for contacts even where there is nothing to touch.
         let buffer = self.solver.contacts().filter(|_| !self.reference.contacts().is_empty())?;
         let contacts: Vec<_> = self.reference.contacts().iter().flat_map(|c| [c.normal, c.velocity]).collect();
-        first_difference(&vec3_words(&gpu().vec3s(buffer)), &vec3_words(&contacts))
+        first_beyond(&vec3_words(&gpu().vec3s(buffer)), &vec3_words(&contacts))
             .map(|fault| format!("contacts: {fault}"))
     }
 

@@ -1,16 +1,16 @@
 //! Where the last bit decides: a device that works in another order than the reference would give another answer.
 
-use crate::kernels::{difference, input};
+use crate::kernels::{Case, input};
 use glam::{Vec2, Vec3, vec3};
 use toile_kernels::Kernel;
+use toile_lab::Random;
 use toile_lab::kernels::{Compiled, Input, Variant};
 use toile_model::Strand;
-use toile_report::Random;
 use toile_workspace::gpu;
 
-fn agrees(kernel: Kernel, input: &Input) {
+fn agrees(kernel: Kernel, input: Input) {
     let compiled = Compiled::new(gpu(), kernel, &kernel.source()).expect("the kernel compiles");
-    assert_eq!(difference(&compiled, kernel, input), None, "{}", kernel.name());
+    assert_eq!(Case::new(kernel, input).difference(&compiled), None, "{}", kernel.name());
 }
 
 /// Particles that dive into the surfaces; the middle of the way of each lies on a corner of four texels, as exactly as its start can be
@@ -39,7 +39,7 @@ fn dive_through_corners() -> Input {
 
 #[test]
 fn ways_over_the_corners_of_texels_agree() {
-    agrees(Kernel::SampleMaps, &dive_through_corners());
+    agrees(Kernel::SampleMaps, dive_through_corners());
 }
 
 /// Strands like those of worn cloth: almost straight, a little too long, and of uneven masses.
@@ -73,5 +73,5 @@ fn worn_strands() -> Input {
 
 #[test]
 fn strands_of_worn_cloth_agree() {
-    agrees(Kernel::LimitStrands, &worn_strands());
+    agrees(Kernel::LimitStrands, worn_strands());
 }

@@ -1,56 +1,158 @@
-//! Saboteurs: with any one sign of its WGSL flipped, a kernel no longer agrees with its reference.
+//! Saboteurs: with any one mistake in its WGSL, a kernel no longer agrees with its reference.
 
-use crate::kernels::{difference, input};
-use std::collections::BTreeMap;
+use crate::kernels::Case;
+use crate::mutants::{Kind, Mutant, mutants};
+use std::collections::{BTreeMap, BTreeSet};
 use toile_kernels::{Kernel, TABLE};
-use toile_lab::kernels::{Compiled, VARIANTS};
+use toile_lab::kernels::Compiled;
 use toile_workspace::gpu;
 
-/// Lines that a flipped sign does not break on these inputs, each with its reason.
-const SPARED: &[&str] = &[
-    // The second dimension of a dispatch begins beyond 65 535 workgroups.
-    "return id.x + id.y * (groups.x * WORKGROUP_SIZE);",
-    "let partial = group.x + group.y * groups.x;",
-    "let item = group.x + group.y * groups.x;",
-    // The rim of the maps is empty, so what lies beyond it is nothing too.
-    "if !(left >= 0.0 && left + 1.0 < f32(map_box.columns) && top >= 0.0 && top + 1.0 < f32(map_box.rows)) {",
+/// How many mistakes of each kind there are at least, so that none is lost to a change of the text.
+const LEAST: [(Kind, usize); 6] = [
+    (Kind::Sign, 200),
+    (Kind::Border, 30),
+    (Kind::Turned, 100),
+    (Kind::Extreme, 10),
+    (Kind::Constant, 150),
+    (Kind::Index, 150),
 ];
 
-/// One sign of a line: the line, and where in it the sign stands.
-type Sign = (String, usize);
+/// Mistakes that change no answer on these inputs: why, their kind, and parts of the lines that have them.
+const SPARED: &[(&str, Kind, &[&str])] = &[
+    (
+        "the second dimension of a dispatch begins beyond 65 535 workgroups",
+        Kind::Sign,
+        &["id.x - id.y *", "group.x - group.y *"],
+    ),
+    (
+        "the second dimension of a dispatch begins beyond 65 535 workgroups",
+        Kind::Constant,
+        &["const WORKGROUP_SIZE: u32 = 65u"],
+    ),
+    (
+        "the rim of the maps is empty, so what lies beyond it is nothing too",
+        Kind::Sign,
+        &["left - 1.0 <", "top - 1.0 <"],
+    ),
+    (
+        "the rim of the maps is empty, so what lies beyond it is nothing too",
+        Kind::Constant,
+        &["left + 1.5 <", "top + 1.5 <"],
+    ),
+    (
+        "the rim of the maps is empty, so what lies beyond it is nothing too",
+        Kind::Border,
+        &["left + 1.0 <=", "top + 1.0 <=", "column > 0.0", "row > 0.0"],
+    ),
+    (
+        "an item after the last has nothing to read, and what it writes is dropped",
+        Kind::Border,
+        &[
+            "i + 1u > arrayLength",
+            "i <= arrayLength",
+            "i <= step.",
+            "i > step.",
+            "i > vertices.count",
+            "item > span.count",
+            "k <= arrayLength",
+            "partial <= arrayLength",
+        ],
+    ),
+    ("what stands at the end of a way is answered in any case", Kind::Border, &["k < places"]),
+    ("the sum beyond the half is not read", Kind::Border, &["local <= stride"]),
+    ("every invocation of a workgroup has its sum", Kind::Turned, &["local != 0u"]),
+    ("every invocation of a workgroup has its sum", Kind::Constant, &["local == 1u"]),
+    ("two invocations that run in step write the same", Kind::Constant, &["local > 1u"]),
+    ("no number lies between 0 and the least elongation", Kind::Constant, &["elongation_max) > 1u"]),
+    ("a name that only has to be unlike others", Kind::Constant, &["const BESIDE: i32 = 4"]),
+    ("room for more than there is", Kind::Constant, &["const STRAND_PARTICLES: u32 = 513u"]),
+    ("the program sets it", Kind::Constant, &["override LANES: u32 = 65u"]),
+    ("no impulse or pull of nothing changes anything", Kind::Constant, &["impulse == 1e9", "pull != 1e9"]),
+    ("it is written before it is read", Kind::Constant, &["var area_vector = vec3<f32>(1e9)"]),
+    ("more than 0 is a hit", Kind::Constant, &["velocity_back, 1.5)", "velocity_front, 1.5)"]),
+    (
+        "where one camera sees nothing the other sees nothing",
+        Kind::Constant,
+        &["depth_front < 1.5", "depth_back < 1.5"],
+    ),
+    (
+        "where one camera sees nothing the other sees nothing",
+        Kind::Border,
+        &["depth_front <= 1.0", "depth_back <= 1.0"],
+    ),
+    ("a way that ends before the sphere ends within a hair of it for none of these", Kind::Constant, &["share < 1.5"]),
+    (
+        "with nothing to change, to divide or to blend the answer is nothing either",
+        Kind::Border,
+        &[
+            "a.w + b.w >= 0.0",
+            "approach <= wanted",
+            "b.touching >= 0.0",
+            "chord_length >=",
+            "closing <= 0.0",
+            "contact.touching >= 0.0",
+            "cosine >= 0.0",
+            "current_length >= limit.max_length",
+            "discriminant >= 0.0",
+            "elongation >= 0.0",
+            "excess >= 0.0",
+            "gap >= 0.0",
+            "met_length >= 0.0",
+            "normal_force <= 0.0",
+            "normal_length >= 0.0",
+            "outside >= 0.0",
+            "predicted_length >= 0.0",
+            "predicted_length >= attachment.max_length",
+            "predicted_length >= guard_length",
+            "predicted_length >= target_length",
+            "probe.hit >= 0.0",
+            "returned >= wanted",
+            "speed >= step.hold_speed",
+            "speed >= stopped",
+            "through <= 0.0",
+            "wanted >= speed",
+            "weight_sum >= 0.0",
+            ">= atomicLoad",
+        ],
+    ),
+    (
+        "none of these numbers lies on the border to the last bit",
+        Kind::Border,
+        &[
+            "abs(cosine) <= 0.3",
+            "abs(next.z - column.front) < abs(",
+            "column.front - start.z < start.z",
+            "step.dt <= step.contact_margin",
+            "distance <= nearest.distance",
+            "distance_front > distance_back",
+            "elongation * step.aim >=",
+            "elongation >= polish.target_elongation",
+            "entry.z <= seen.front",
+            "entry.z >= seen.back",
+            "plane.distance > nearest",
+            "share <= 1.0",
+            "speed_squared <= RUNAWAY_SPEED",
+            "z <= column.back",
+            "z >= column.front",
+        ],
+    ),
+];
 
-/// The WGSL of a kernel with one sign flipped, for every sign.
-fn sabotaged(source: &str) -> Vec<(Sign, String)> {
-    let mut all = Vec::new();
-    let lines: Vec<&str> = source.lines().collect();
-    for (number, line) in lines.iter().enumerate() {
-        let code = line.split("//").next().unwrap_or_default();
-        if SPARED.contains(&code.trim()) {
-            continue;
-        }
-        let unary =
-            code.match_indices('-').filter(|(i, _)| !code[i + 1..].starts_with([' ', '>'])).map(|(i, _)| (i, "-", ""));
-        let binary = [(" + ", " - "), (" - ", " + ")];
-        let binary =
-            binary.iter().flat_map(|(sign, flip)| code.match_indices(sign).map(move |(i, _)| (i, *sign, *flip)));
-        for (place, sign, flipped) in unary.chain(binary) {
-            let changed = format!("{}{flipped}{}", &line[..place], &line[place + sign.len()..]);
-            let text: Vec<&str> =
-                lines.iter().enumerate().map(|(i, l)| if i == number { changed.as_str() } else { l }).collect();
-            all.push(((line.trim().to_owned(), place), text.join("\n")));
-        }
-    }
-    all
+/// The part of a line that spares it.
+fn spares(mutant: &Mutant) -> Option<&'static str> {
+    let lists = SPARED.iter().filter(|(_, kind, _)| *kind == mutant.kind);
+    let mut parts = lists.flat_map(|(_, _, parts)| *parts);
+    parts.find(|part| mutant.wrong.contains(**part) && !mutant.line.contains(**part)).copied()
 }
 
-/// Whether the comparison with the reference finds the sabotage.
-fn is_found(kernel: Kernel, source: &str) -> bool {
-    // A sign whose flip does not even compile cannot be wrong by mistake.
-    let Some(compiled) = Compiled::new(gpu(), kernel, source) else { return true };
-    VARIANTS.iter().any(|variant| difference(&compiled, kernel, &input(kernel, 1757, *variant)).is_some())
+/// Whether the comparison with the reference finds the sabotage; `None` where it does not even compile, so that nobody makes it
+/// unseen.
+fn is_found(kernel: Kernel, cases: &[Case], source: &str) -> Option<bool> {
+    let compiled = Compiled::new(gpu(), kernel, source)?;
+    Some(cases.iter().any(|case| case.difference(&compiled).is_some()))
 }
 
-/// What to change in kernels that have no sign of their own.
+/// What to change in kernels whose own lines have no mistake that is found.
 fn other_sabotage(kernel: Kernel, source: &str) -> Option<String> {
     let (from, to) = match kernel {
         Kernel::StateCopy => ("= velocities[i];", "= -velocities[i];"),
@@ -62,23 +164,37 @@ fn other_sabotage(kernel: Kernel, source: &str) -> Option<String> {
 }
 
 #[test]
-fn every_flipped_sign_is_found() {
-    // Shared files have functions that not every kernel calls, so a sign counts as found once one kernel finds it.
-    let mut found: BTreeMap<Sign, bool> = BTreeMap::new();
+fn every_mistake_is_found() {
+    // Shared files have functions that not every kernel calls, so a mistake counts as found once one kernel finds it.
+    let mut found: BTreeMap<Mutant, bool> = BTreeMap::new();
+    let mut spared = BTreeSet::new();
     for row in TABLE {
-        let source = row.kernel.source();
-        let mut any = other_sabotage(row.kernel, &source).is_some_and(|source| is_found(row.kernel, &source));
-        for (sign, source) in sabotaged(&source) {
-            let found = found.entry(sign).or_default();
-            if !*found || !any {
-                let here = is_found(row.kernel, &source);
-                *found |= here;
+        let kernel = row.kernel;
+        let cases = Case::variants(kernel);
+        let source = kernel.source();
+        let mut any =
+            other_sabotage(kernel, &source).is_some_and(|source| is_found(kernel, &cases, &source) == Some(true));
+        for (mutant, source) in mutants(&source) {
+            if let Some(part) = spares(&mutant) {
+                spared.insert(part);
+                continue;
+            }
+            if any && found.get(&mutant) == Some(&true) {
+                continue;
+            }
+            if let Some(here) = is_found(kernel, &cases, &source) {
+                *found.entry(mutant).or_default() |= here;
                 any |= here;
             }
         }
-        assert!(any, "{}: no sabotage is found", row.kernel.name());
+        assert!(any, "{}: no sabotage is found", kernel.name());
     }
-    assert!(found.len() > 60, "only {} signs were flipped", found.len());
-    let missed: Vec<_> = found.iter().filter(|(_, found)| !**found).map(|((line, _), _)| line).collect();
-    assert!(missed.is_empty(), "nothing sees a flipped sign in\n{missed:#?}");
+    for (kind, least) in LEAST {
+        let count = found.keys().filter(|mutant| mutant.kind == kind).count();
+        assert!(count >= least, "only {count} mistakes of the kind {kind:?} were made");
+    }
+    let missed: Vec<_> = found.iter().filter(|(_, found)| !**found).map(|(mutant, _)| mutant).collect();
+    assert!(missed.is_empty(), "nothing sees\n{missed:#?}");
+    let idle: Vec<_> = SPARED.iter().flat_map(|(_, _, parts)| *parts).filter(|part| !spared.contains(*part)).collect();
+    assert!(idle.is_empty(), "these spare nothing any more: {idle:#?}");
 }

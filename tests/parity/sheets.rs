@@ -2,9 +2,12 @@
 
 use crate::life::Life;
 use toile::Cloth;
+use toile_lab::Layers;
+use toile_lab::fixtures::{scene, shapes, sheet_model};
+use toile_lab::kernels::{first_difference, vec3_words};
 use toile_model::StepSettings;
 use toile_scene::{Friction, Mesh, Polish, Rule, VelocityModification, Wind};
-use toile_workspace::{Layers, arrived, finish_frame, first_difference, gpu, scene, shapes, sheet_model, vec3_words};
+use toile_workspace::{arrived, finish_frame, gpu};
 
 #[test]
 fn a_hanging_sheet_agrees_under_every_rule() {

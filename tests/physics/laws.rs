@@ -1,10 +1,11 @@
 //! Free fall, momentum, pinned particles.
 
 use glam::Vec3;
+use toile_lab::fixtures::scene;
 use toile_model::{Model, StepSettings};
 use toile_report::experiments::validation::laws::{free_fall_error, momentum_error};
 use toile_scene::{Cloth, Rule, Scene, Settings, VelocityModification};
-use toile_workspace::{advance, gpu, lab, scene};
+use toile_workspace::{advance, gpu, lab};
 
 fn simulate(model: &Model, settings: &StepSettings) -> toile::Cloth {
     toile::Cloth::new(&gpu().device, model, settings, Default::default()).expect("it fits the device")

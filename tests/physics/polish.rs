@@ -2,9 +2,11 @@
 
 use glam::Vec3;
 use toile::Cloth;
+use toile_lab::Random;
+use toile_lab::fixtures::{scene, shapes, sheet_model};
 use toile_model::{Model, Status, StepSettings};
 use toile_scene::{Polish, Settings, Shape};
-use toile_workspace::{Random, advance, gpu, scene, shapes, sheet_model};
+use toile_workspace::{advance, gpu};
 
 /// How a scene went.
 struct Run {

@@ -1,9 +1,10 @@
 //! Which rules stay bounded on the hanging sheet over 2 s, and how a run that diverges ends.
 
 use toile::{Cloth, Error};
+use toile_lab::fixtures::{scene, sheet_model};
 use toile_model::{Limit, StepSettings};
 use toile_scene::{Rule, Threshold, VelocityModification};
-use toile_workspace::{advance, gpu, scene, sheet_model};
+use toile_workspace::{advance, gpu};
 
 const FRAMES: u32 = 120;
 
@@ -90,7 +91,7 @@ fn hierarchical_limits_hold_the_threshold_at_any_resolution() {
         let run = hang(n, Rule::Hierarchical);
         assert!(run.end.is_ok() && run.speed_max < FASTEST, "{n}: {} m/s", run.speed_max);
         assert!(run.elongation_max < 0.07, "{n}: {}", run.elongation_max);
-        let mut cloth = run.cloth;
+        let cloth = run.cloth;
         let strain = cloth.strain().expect("it stays finite").expect("a frame is done");
         let positions = gpu().vec3s(&cloth.frame().positions);
         let longest = &run.limits[strain.longest_limit.expect("the sheet hangs") as usize];

@@ -2,9 +2,10 @@
 
 use glam::Vec3;
 use toile::Cloth;
+use toile_lab::fixtures::{SCENES, scene, shapes, sheet_model};
 use toile_model::StepSettings;
 use toile_scene::{Rule, Threshold, VelocityModification};
-use toile_workspace::{SCENES, advance, gpu, scene, shapes, sheet_model};
+use toile_workspace::{advance, gpu};
 
 /// Frames until the falling sheet has slapped around its sphere, and the other one is carried along by its own.
 const FRAMES: u32 = 40;

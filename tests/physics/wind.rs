@@ -2,9 +2,11 @@
 
 use glam::{DVec2, DVec3, dvec3};
 use toile_gpu::Solver;
+use toile_lab::Random;
+use toile_lab::fixtures::sheet_settings;
 use toile_model::{Model, NO_CORNER, StepSettings};
 use toile_scene::{AIR_DENSITY, Pin, Rule, Settings, Sheet, Wind};
-use toile_workspace::{Random, gpu, sheet_settings};
+use toile_workspace::gpu;
 
 /// A sheet of 0.5 m × 0.5 m and 0.2 kg/m² with its outside along `right × down`.
 fn sheet(right: DVec3, down: DVec3, pins: Vec<Pin>) -> Sheet {

@@ -1,6 +1,6 @@
 //! The pages of a report that is made up.
 
-use toile_report::Scale;
+use toile_lab::Scale;
 use toile_report::page::{
     self, Axis, Block, Cell, Page, Plot, Report, Section, Series, SeriesStyle, Table, compare, html, markdown,
 };

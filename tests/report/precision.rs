@@ -1,7 +1,7 @@
 //! Errors against cost: limits, step, spacing, size.
 
 use crate::lab;
-use toile_report::StepCost;
+use toile_lab::StepCost;
 use toile_report::experiments::cost::{fitted_exponent, step_cost};
 use toile_report::experiments::precision::{Limited, Limiting, Scene, limited, rest_error, shape_errors};
 use toile_report::experiments::rest::RestScene;

@@ -2,21 +2,17 @@
 
 use std::ops::Deref;
 use std::sync::OnceLock;
-use toile_report::{Lab, Scale};
-
-/// What to do where there is no adapter.
-pub const INSTALL_HINT: &str = "the GPU tests need a Vulkan adapter; on Debian or Ubuntu \
-    `apt-get install -y mesa-vulkan-drivers libvulkan1` brings one that works on the CPU";
+use toile_lab::{INSTALL_HINT, Lab, Scale};
 
 /// A device with its queue, for tests: whatever it does not answer fails them. It has the limits of WebGPU, so that a test
 /// fails where a browser would.
 #[derive(Clone, Debug)]
-pub struct Gpu(toile_report::Gpu);
+pub struct Gpu(toile_lab::Gpu);
 
 impl Deref for Gpu {
-    type Target = toile_report::Gpu;
+    type Target = toile_lab::Gpu;
 
-    fn deref(&self) -> &toile_report::Gpu {
+    fn deref(&self) -> &toile_lab::Gpu {
         &self.0
     }
 }
@@ -87,5 +83,5 @@ async fn open(backends: wgpu::Backends) -> Result<Gpu, String> {
     };
     let descriptor = wgpu::DeviceDescriptor { label: Some("toile tests"), ..Default::default() };
     let (device, queue) = adapter.request_device(&descriptor).await.map_err(|error| error.to_string())?;
-    Ok(Gpu(toile_report::Gpu { device, queue, adapter: adapter.get_info().name }))
+    Ok(Gpu(toile_lab::Gpu { device, queue, adapter: adapter.get_info().name }))
 }

@@ -13,7 +13,12 @@ fn missing_speed(velocity: vec3<f32>, probe: Probe) -> f32 {
     let approach = dot(velocity - probe.velocity, probe.normal);
     let wanted = min(-probe.distance / step.dt, 0.0);
     if approach < wanted {
-        return max(wanted, -(step.reflection * approach)) - approach;
+        // No max: drivers differ in what it makes of NaN, which an endless approach gives here.
+        let returned = -(step.reflection * approach);
+        if returned > wanted {
+            return returned - approach;
+        }
+        return wanted - approach;
     }
     return 0.0;
 }

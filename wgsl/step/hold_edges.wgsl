@@ -27,7 +27,14 @@ fn hold_edges(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation
     let height_sum = workgroup_sum(local, height);
     let rise_sum = workgroup_sum(local, rise);
     let wanted = step.hold_rate * (hold.height - height_sum / f32(hold.count));
-    let speed = min(max(wanted, -step.hold_speed), step.hold_speed);
+    // No min and max: drivers differ in what they make of NaN.
+    var speed = -step.hold_speed;
+    if wanted > speed {
+        speed = wanted;
+    }
+    if speed > step.hold_speed {
+        speed = step.hold_speed;
+    }
     let change = speed - rise_sum / f32(hold.count);
     for (var k = local; k < hold.count; k += 64u) {
         let particle = held_particles[hold.first + k];

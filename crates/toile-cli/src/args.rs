@@ -1,7 +1,9 @@
 //! What the user types.
 
+mod place;
 mod report;
 
+pub use place::{Backend, Place};
 pub use report::ReportOf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -85,17 +87,6 @@ pub struct Running {
     /// Where it runs.
     #[command(flatten)]
     pub place: Place,
-}
-
-/// Where it runs.
-#[derive(Args, Debug)]
-pub struct Place {
-    /// Part of the name of the adapter to use.
-    #[arg(long, value_name = "NAME")]
-    pub adapter: Option<String>,
-    /// What computes.
-    #[arg(long, value_enum, default_value_t = Backend::Gpu)]
-    pub backend: Backend,
 }
 
 /// `toile dress`.
@@ -222,15 +213,6 @@ impl Unit {
             Unit::In => 0.0254,
         }
     }
-}
-
-/// What computes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Backend {
-    /// A GPU, or a Vulkan driver that works on the CPU.
-    Gpu,
-    /// The CPU reference, for machines without any adapter.
-    Reference,
 }
 
 fn parse_spacing(text: &str) -> Result<f64, String> {

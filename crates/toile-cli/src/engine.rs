@@ -1,17 +1,15 @@
-//! A cloth being simulated, on the GPU or by the reference.
+//! A scene that runs, on the device or by the reference, frame by frame.
 
 use crate::adapter::Gpu;
 use crate::interrupt;
-use anyhow::{Context, Result};
+use crate::reference_run::ReferenceRun;
+use anyhow::{Context, Result, anyhow};
 use glam::Vec3;
 use std::collections::BTreeMap;
-use std::sync::Arc;
-use toile::gpu::{BodyMaps, Kernel, PassTime, Surface, Timer, readback};
-use toile::model::{MapBox, Merge, Model, Status, StepSettings};
-use toile::scene::{Mesh, Shape};
-use toile::{Cloth, Colliders};
-use toile_reference::Reference;
-use toile_reference::maps::{self as reference_maps, render_maps};
+use toile::gpu::{Kernel, PassTime, Timer, readback};
+use toile::model::{Dressing, DressingError, Model, Status, StepSettings};
+use toile::scene::Scene;
+use toile::{Cloth, Error, Simulation, Stage};
 
 /// Steps that are timed pass by pass at the end of a run.
 const TIMED_STEPS: u32 = 20;
@@ -24,28 +22,33 @@ pub enum Computer {
     Reference,
 }
 
-/// A surface that the cloth collides with, and the thickness that lies on it [m].
-pub struct Layer {
-    /// The surface.
-    pub mesh: Mesh,
-    /// Thickness of what lies on it [m].
-    pub thickness: f32,
-}
-
-/// A cloth being simulated.
+/// A scene that runs.
 pub enum Engine<'a> {
     /// On a device.
     Gpu {
         /// The device.
         gpu: &'a Gpu,
-        /// The cloth.
-        cloth: Box<Cloth>,
+        /// The scene.
+        simulation: Box<Simulation>,
     },
     /// By the reference.
-    Reference(Box<Reference>),
+    Reference(Box<ReferenceRun>),
 }
 
-/// Positions, normals and contacts at the end.
+/// A cloth as it is now.
+pub struct Look<'a> {
+    /// Name of the garment or sheet.
+    pub name: &'a str,
+    /// What is simulated.
+    pub model: &'a Model,
+    /// The numbers of its steps.
+    pub settings: StepSettings,
+    /// What it reported last.
+    pub status: Status,
+}
+
+/// Positions, normals and contacts of a cloth.
+#[derive(Clone, Debug, Default)]
 pub struct State {
     /// Positions [m], shape [particle_count].
     pub positions: Vec<Vec3>,
@@ -64,147 +67,136 @@ impl Computer {
         }
     }
 
-    /// A cloth at the start of its model.
-    pub fn start(
-        &self,
-        model: &Model,
-        settings: &StepSettings,
-        layers: &[Layer],
-        shapes: Vec<Shape>,
-        texel: f32,
-    ) -> Result<Engine<'_>> {
-        match self {
-            Computer::Gpu(gpu) => {
-                let maps = if layers.is_empty() { None } else { Some(Arc::new(draw_maps(gpu, layers, texel)?)) };
-                let cloth = Cloth::new(&gpu.device, model, settings, Colliders { maps, shapes })?;
-                Ok(Engine::Gpu { gpu, cloth: Box::new(cloth) })
-            }
-            Computer::Reference => {
-                let surfaces: Vec<_> = layers
-                    .iter()
-                    .map(|layer| reference_maps::Surface {
-                        mesh: &layer.mesh,
-                        thickness: layer.thickness,
-                        velocities: None,
-                    })
-                    .collect();
-                let maps = (!surfaces.is_empty()).then(|| render_maps(&surfaces, texel));
-                let colliders = toile_reference::Colliders { maps, shapes };
-                Ok(Engine::Reference(Box::new(Reference::new(model, settings, colliders))))
-            }
-        }
+    /// A scene at its start.
+    pub fn start(&self, scene: &Scene) -> Result<Engine<'_>> {
+        Ok(match self {
+            Computer::Gpu(gpu) => Engine::Gpu { gpu, simulation: Box::new(Simulation::new(&gpu.device, scene)?) },
+            Computer::Reference => Engine::Reference(Box::new(ReferenceRun::new(scene)?)),
+        })
     }
 }
 
-/// The status of a cloth at the end of the frame that was waited for. One of an earlier frame, or none, would look like a calm cloth.
-pub fn status(cloth: &mut Cloth) -> Result<Status> {
+impl State {
+    /// Reads a cloth back.
+    pub fn of(gpu: &Gpu, cloth: &Cloth) -> Result<Self> {
+        let read = |buffer: &wgpu::Buffer| readback::read_vec4s(&gpu.device, &gpu.queue, buffer);
+        let vectors = |buffer: &wgpu::Buffer| -> Result<Vec<Vec3>> {
+            Ok(read(buffer)?.into_iter().map(|value| value.truncate()).collect())
+        };
+        let touching = match cloth.contacts() {
+            Some(buffer) => read(buffer)?.chunks_exact(2).map(|contact| contact[0].w > 0.0).collect(),
+            None => Vec::new(),
+        };
+        let frame = cloth.frame();
+        Ok(Self { positions: vectors(&frame.positions)?, normals: vectors(&frame.normals)?, touching })
+    }
+}
+
+/// The status of a cloth at the end of what was waited for. One of an earlier frame, or none, would look like a calm cloth.
+pub fn status(cloth: &Cloth) -> Result<Status> {
     let status = cloth.status()?.filter(|status| status.step == cloth.step());
     status.context("the device gave no status of the last frame: it may be lost")
 }
 
-fn draw_maps(gpu: &Gpu, layers: &[Layer], texel: f32) -> Result<BodyMaps> {
-    let bounds = layers
-        .iter()
-        .filter_map(|layer| layer.mesh.bounds().map(|[low, high]| [low - layer.thickness, high + layer.thickness]))
-        .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
-        .unwrap_or_default();
-    let map_box = MapBox::around(bounds, texel);
-    let maps = BodyMaps::new(&gpu.device, map_box, false)?;
-    let surfaces: Vec<_> = layers.iter().map(|l| (Surface::new(&gpu.device, &l.mesh), l.thickness)).collect();
-    let drawn: Vec<_> = surfaces.iter().map(|(surface, thickness)| (surface, *thickness)).collect();
+/// Goes on by some seconds and waits; steps that were done.
+pub fn advance(gpu: &Gpu, simulation: &mut Simulation, seconds: f64) -> Result<u32> {
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    maps.record(&gpu.device, &mut encoder, map_box, &drawn);
+    let advance = simulation.advance(&mut encoder, seconds)?;
     gpu.queue.submit([encoder.finish()]);
-    Ok(maps)
+    gpu.device.poll(wgpu::PollType::wait_indefinitely())?;
+    Ok(advance.step_count)
+}
+
+/// What a simulation is doing; of a garment that cannot be sewn, the seam that stayed open is named.
+pub fn stage(gpu: &Gpu, simulation: &mut Simulation) -> Result<Stage> {
+    let error = match simulation.stage() {
+        Ok(stage) => return Ok(stage),
+        Err(error) => error,
+    };
+    let Error::Dressing { garment, source: source @ DressingError::SeamsOpen { .. } } = &error else {
+        return Err(error.into());
+    };
+    let worn = simulation.cloths().last().context("a garment is being sewn")?;
+    let positions = State::of(gpu, worn.cloth)?.positions;
+    let seam = worn.model.widest_seam(&positions).map(|(name, _)| format!(", seam {name}")).unwrap_or_default();
+    Err(anyhow!(source.clone()).context(format!("garment {garment}{seam}")))
 }
 
 impl Engine<'_> {
-    /// Does one frame and waits for it.
-    pub fn frame(&mut self) -> Result<Status> {
+    /// What the scene is doing.
+    pub fn stage(&mut self) -> Result<Stage> {
+        match self {
+            Engine::Gpu { gpu, simulation } => stage(gpu, simulation),
+            Engine::Reference(run) => Ok(run.stage()),
+        }
+    }
+
+    /// Does one frame of `seconds` and waits for it; steps that were done.
+    pub fn frame(&mut self, seconds: f64) -> Result<u32> {
         interrupt::check()?;
         match self {
-            Engine::Gpu { gpu, cloth } => {
-                let mut encoder = gpu.device.create_command_encoder(&Default::default());
-                cloth.record(&gpu.device, &mut encoder);
-                gpu.queue.submit([encoder.finish()]);
-                gpu.device.poll(wgpu::PollType::wait_indefinitely())?;
-                status(cloth)
-            }
-            Engine::Reference(reference) => {
-                reference.frame();
-                let status = reference.status();
-                if let Some(particle) = status.first_non_finite {
-                    return Err(
-                        toile::Error::Diverged { step: status.step, particle, count: status.non_finite_count }.into()
-                    );
-                }
-                Ok(status)
-            }
+            Engine::Gpu { gpu, simulation } => advance(gpu, simulation, seconds),
+            Engine::Reference(run) => run.frame(),
         }
     }
 
-    /// The same cloth with its seams merged.
-    pub fn sewn(self, model: &Model, merge: &Merge, settings: &StepSettings) -> Result<Self> {
+    /// The cloths that are there, from the inside out; the last of them is the one that is being dressed.
+    pub fn cloths<'a>(&'a self) -> Result<Vec<Look<'a>>> {
         match self {
-            Engine::Gpu { gpu, cloth } => {
-                let mut encoder = gpu.device.create_command_encoder(&Default::default());
-                let sewn = cloth.sewn(&gpu.device, &mut encoder, model, merge, settings)?;
-                gpu.queue.submit([encoder.finish()]);
-                Ok(Engine::Gpu { gpu, cloth: Box::new(sewn) })
+            Engine::Gpu { simulation, .. } => {
+                let look = |worn: toile::Worn<'a>| -> Result<Look<'a>> {
+                    let (settings, status) = (worn.cloth.settings().clone(), worn.cloth.status()?.unwrap_or_default());
+                    Ok(Look { name: worn.name, model: worn.model, settings, status })
+                };
+                simulation.cloths().map(look).collect()
             }
-            Engine::Reference(reference) => Ok(Engine::Reference(Box::new(reference.sewn(model, settings, merge)))),
+            Engine::Reference(run) => Ok(run.cloths()),
         }
     }
 
-    /// Reads the state back.
-    pub fn state(&self) -> Result<State> {
+    /// How the garments were dressed, in their order.
+    pub fn dressings(&self) -> Vec<Dressing> {
         match self {
-            Engine::Gpu { gpu, cloth } => {
-                let read = |buffer: &wgpu::Buffer| -> Result<Vec<Vec3>> {
-                    let values = readback::read_vec4s(&gpu.device, &gpu.queue, buffer)?;
-                    Ok(values.into_iter().map(|v| v.truncate()).collect())
-                };
-                let touching = match cloth.contacts() {
-                    Some(buffer) => {
-                        let words = readback::read_vec4s(&gpu.device, &gpu.queue, buffer)?;
-                        words.chunks_exact(2).map(|contact| contact[0].w > 0.0).collect()
-                    }
-                    None => Vec::new(),
-                };
-                let frame = cloth.frame();
-                Ok(State { positions: read(&frame.positions)?, normals: read(&frame.normals)?, touching })
-            }
-            Engine::Reference(reference) => Ok(State {
-                positions: reference.positions().to_vec(),
-                normals: reference.normals(),
-                touching: reference.contacts().iter().map(|contact| contact.touching).collect(),
-            }),
+            Engine::Gpu { simulation, .. } => simulation.dressings().cloned().collect(),
+            Engine::Reference(run) => run.dressings(),
         }
     }
 
-    /// The kernels of a step and the median of what each costs per step [ms]; empty by the reference.
+    /// Reads the cloths back, in their order.
+    pub fn states(&self) -> Result<Vec<State>> {
+        match self {
+            Engine::Gpu { gpu, simulation } => simulation.cloths().map(|worn| State::of(gpu, worn.cloth)).collect(),
+            Engine::Reference(run) => Ok(run.states()),
+        }
+    }
+
+    /// For each cloth the kernels of a step and the median of what each costs per step [ms]; empty by the reference.
     /// It goes on by a few steps, so call it last.
-    pub fn pass_times(&mut self) -> Result<BTreeMap<String, PassTime>> {
-        let Engine::Gpu { gpu, cloth } = self else { return Ok(BTreeMap::new()) };
+    pub fn pass_times(&mut self) -> Result<Vec<BTreeMap<String, PassTime>>> {
+        let Engine::Gpu { gpu, simulation } = self else { return Ok(Vec::new()) };
         let timer = Timer::new(&gpu.device, &gpu.queue)?;
-        let mut samples: BTreeMap<Kernel, Vec<PassTime>> = BTreeMap::new();
-        for _ in 0..TIMED_STEPS {
-            for (kernel, time) in cloth.time_step(&gpu.device, &gpu.queue, &timer)? {
-                samples.entry(kernel).or_default().push(time);
-            }
-        }
-        let median = |mut times: Vec<PassTime>| {
-            times.sort_by(|a, b| a.milliseconds.total_cmp(&b.milliseconds));
-            times[times.len() / 2]
-        };
-        Ok(samples.into_iter().map(|(kernel, times)| (kernel.name().to_owned(), median(times))).collect())
+        simulation.cloths_mut().map(|cloth| pass_times(gpu, &timer, cloth)).collect()
     }
 
-    /// Bytes on the device.
-    pub fn bytes(&self) -> u64 {
+    /// Bytes of each cloth on the device.
+    pub fn bytes(&self) -> Vec<u64> {
         match self {
-            Engine::Gpu { cloth, .. } => cloth.bytes(),
-            Engine::Reference(_) => 0,
+            Engine::Gpu { simulation, .. } => simulation.cloths().map(|worn| worn.cloth.bytes()).collect(),
+            Engine::Reference(_) => Vec::new(),
         }
     }
+}
+
+fn pass_times(gpu: &Gpu, timer: &Timer, cloth: &mut Cloth) -> Result<BTreeMap<String, PassTime>> {
+    let mut samples: BTreeMap<Kernel, Vec<PassTime>> = BTreeMap::new();
+    for _ in 0..TIMED_STEPS {
+        for (kernel, time) in cloth.time_step(&gpu.device, &gpu.queue, timer)? {
+            samples.entry(kernel).or_default().push(time);
+        }
+    }
+    let median = |mut times: Vec<PassTime>| {
+        times.sort_by(|a, b| a.milliseconds.total_cmp(&b.milliseconds));
+        times[times.len() / 2]
+    };
+    Ok(samples.into_iter().map(|(kernel, times)| (kernel.name().to_owned(), median(times))).collect())
 }

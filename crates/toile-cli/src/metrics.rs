@@ -2,11 +2,13 @@
 
 mod contact;
 mod frames;
+mod largest;
 mod measures;
 
 pub use contact::{Surfaces, is_far, reach};
 pub use frames::StrainRow;
-pub use measures::{Measures, max_and_p99};
+pub use largest::max_and_p99;
+pub use measures::Measures;
 
 use crate::worn::Worn;
 use serde::Serialize;

@@ -2,22 +2,20 @@
 
 use crate::adapter;
 use crate::args::{Backend, Running};
-use crate::commands::print;
-use crate::engine::{Computer, Layer};
+use crate::engine::Computer;
 use crate::metrics::{ClothMetrics, Metrics, Surfaces};
 use crate::output::{self, Shown};
-use crate::worn::{self, Surroundings, Worn};
+use crate::stdout::print;
+use crate::worn::{self, Worn};
 use anyhow::{Result, bail};
 use toile::files::SceneFile;
-use toile::model::Model;
-use toile::scene::{Body, Cloth, Scene, Shape};
+use toile::scene::{Body, Cloth, Mesh, MovingMesh, Scene, Shape};
 
 /// Simulates a scene: garments are dressed one after another, sheets run for a number of frames. Writes the results.
 pub fn simulate(file: &SceneFile, running: &Running) -> Result<()> {
     let scene = &file.scene;
     output::check(&running.out)?;
-    check_bodies(scene)?;
-    let shapes = shapes(scene);
+    check_bodies(scene, running.place.backend)?;
     if !running.quiet {
         for warning in &file.warnings {
             eprintln!("warning: {warning}");
@@ -27,33 +25,21 @@ pub fn simulate(file: &SceneFile, running: &Running) -> Result<()> {
         Backend::Gpu => Computer::Gpu(adapter::open(&running.place)?),
         Backend::Reference => Computer::Reference,
     };
-    let thickness = scene.settings.fabric.thickness as f32;
-    let texel = scene.settings.texel as f32;
-    let mut layers: Vec<Layer> = meshes(scene).map(|mesh| Layer { mesh: mesh.clone(), thickness }).collect();
-    let mut surfaces = Surfaces::new(&scene.bodies, scene.settings.fabric.thickness);
-    let mut all: Vec<Worn> = Vec::new();
+    let all = worn::run(file, &computer, running.quiet)?;
+    let end = end(&all);
+    let mut surfaces = Surfaces::new(&scene.bodies, scene.settings.fabric.thickness, end);
     let mut measured = Vec::new();
-    for cloth in &scene.cloths {
-        let shapes = shapes.clone();
-        let around = Surroundings { computer: &computer, layers: &layers, shapes, texel, quiet: running.quiet };
-        let worn = match cloth {
-            Cloth::Garment(garment) => worn::dress(garment, &scene.settings, &around)?,
-            Cloth::Sheet(sheet) => {
-                let model = Model::from_sheet(sheet, &scene.settings);
-                worn::run(&sheet.name, model, file.frames, &scene.settings, &around)?
-            }
-        };
-        measured.push(ClothMetrics::new(&worn, &surfaces, texel));
-        if all.len() + 1 < scene.cloths.len() {
+    for worn in &all {
+        measured.push(ClothMetrics::new(worn, &surfaces, scene.settings.texel as f32));
+        if measured.len() < all.len() {
             surfaces.add_garment(&worn.mesh);
-            layers.push(Layer { mesh: worn.mesh.clone(), thickness });
         }
-        all.push(worn);
     }
     let metrics = Metrics::new(&scene.name, computer.name(), measured);
-    let shape_meshes: Vec<_> = shapes.iter().map(|shape| (shape.name(), shape.mesh(end(&all)))).collect();
-    let mut bodies: Vec<Shown<'_>> = meshes(scene).map(|mesh| Shown { name: "body", mesh }).collect();
-    bodies.extend(shape_meshes.iter().map(|(name, mesh)| Shown { name, mesh }));
+    let shapes: Vec<(&str, Mesh)> = shapes(scene).iter().map(|shape| (shape.name(), shape.mesh(end))).collect();
+    let moved: Vec<Mesh> = moving(scene).map(|body| body.at(end)).collect();
+    let mut bodies: Vec<Shown<'_>> = meshes(scene).chain(&moved).map(|mesh| Shown { name: "body", mesh }).collect();
+    bodies.extend(shapes.iter().map(|(name, mesh)| Shown { name, mesh }));
     let cloths: Vec<Shown<'_>> = all.iter().map(|worn| Shown { name: &worn.name, mesh: &worn.mesh }).collect();
     let thickness = scene.settings.fabric.thickness;
     output::write_whole(&running.out, |folder| output::write(folder, &bodies, &cloths, thickness, &metrics))?;
@@ -69,18 +55,32 @@ pub fn simulate(file: &SceneFile, running: &Running) -> Result<()> {
 }
 
 /// An error when a scene has bodies that a run does not know.
-pub fn check_bodies(scene: &Scene) -> Result<()> {
-    if scene.bodies.iter().any(|body| matches!(body, Body::Moving(_))) {
+fn check_bodies(scene: &Scene, backend: Backend) -> Result<()> {
+    if moving(scene).next().is_none() {
+        return Ok(());
+    }
+    if !scene.cloths.iter().any(|cloth| matches!(cloth, Cloth::Sheet(_))) {
         bail!(
-            "scene {} has a mesh that moves: toile walk goes along with one, toile run knows meshes at rest",
+            "scene {} has garments on a mesh that moves: toile walk goes along with one, toile run dresses",
             scene.name
         );
+    }
+    if backend == Backend::Reference {
+        bail!("scene {} has a mesh that moves: --backend reference knows meshes at rest, a device runs it", scene.name);
     }
     Ok(())
 }
 
-/// The mesh bodies of a scene.
-fn meshes(scene: &Scene) -> impl Iterator<Item = &toile::scene::Mesh> {
+/// The mesh bodies of a scene that move.
+fn moving(scene: &Scene) -> impl Iterator<Item = &MovingMesh> {
+    scene.bodies.iter().filter_map(|body| match body {
+        Body::Moving(body) => Some(body),
+        Body::Mesh(_) | Body::Shape(_) => None,
+    })
+}
+
+/// The mesh bodies of a scene at rest.
+pub fn meshes(scene: &Scene) -> impl Iterator<Item = &Mesh> {
     scene.bodies.iter().filter_map(|body| match body {
         Body::Mesh(mesh) => Some(mesh),
         Body::Moving(_) | Body::Shape(_) => None,

@@ -1,6 +1,5 @@
-//! A walk: an outfit is dressed in the first pose of a clip and goes along with the body, frame by frame.
+//! A walk: an outfit is dressed and goes along with the body, frame by frame.
 
-pub mod dressing;
 mod regions;
 mod rows;
 mod saved;
@@ -8,36 +7,31 @@ mod stage;
 
 use crate::adapter::{self, Gpu};
 use crate::args::{Backend, Running};
-use crate::commands::print;
-use crate::engine::{Computer, Layer, status};
+use crate::engine::{self, Engine, State, status};
 use crate::interrupt;
 use crate::output;
 use crate::picture::{self, Drawn, Material, View};
-use crate::steps::step_settings;
-use crate::worn::{self, Surroundings};
+use crate::stdout::print;
+use crate::worn::{self, Log};
 use anyhow::{Context, Result, bail};
 use glam::Vec3;
 use image::RgbImage;
 use indicatif::{ProgressBar, ProgressStyle};
 use regions::Regions;
 use rows::{FrameRow, WalkMetrics};
-use saved::{GarmentState, Saved};
+use saved::Saved;
 use stage::Stage;
 use std::fmt::Write;
 use std::hash::{DefaultHasher, Hasher};
 use std::path::Path;
 use std::time::Instant;
-use toile::Outfit;
+use toile::Simulation;
 use toile::files::{MovingFaces, write_atomically, write_pc2, write_usda};
-use toile::gpu::{Kernel, Timer, readback};
-use toile::model::{Model, Status, StepSettings};
-use toile::scene::{Garment, Mesh, MovingMesh, Settings};
+use toile::gpu::{Kernel, Timer};
+use toile::model::Status;
+use toile::scene::{Body, Cloth, Garment, Mesh, MovingMesh, Scene, Settings};
 use toile_reference::ExactDistance;
 
-/// Maps are drawn so often at least [1/s]; in between, surfaces go straight on by the velocity map.
-const MAP_RATE: f64 = 60.0;
-/// Time that a garment has to hang quietly at the start of the walk [s].
-const WAITING_SECONDS: f64 = 0.5;
 /// Frames in the strip.
 const STRIP_COUNT: u32 = 6;
 /// Height of the pictures [px].
@@ -49,8 +43,8 @@ const KEPT: &str = "interrupted: every frame so far is kept, go on with --resume
 pub struct Walk {
     /// The body and its motion.
     pub body: MovingMesh,
-    /// The way from the pose in which it is dressed to the start of the walk; `None` when it is dressed there.
-    pub dressing: Option<MovingMesh>,
+    /// The same body with the clip in whose first pose it is dressed, if one is named.
+    pub dress_in: Option<MovingMesh>,
     /// The garments, inner ones first.
     pub garments: Vec<Garment>,
     /// How they are simulated, at the frame rate of the walk.
@@ -67,7 +61,7 @@ impl Walk {
     /// All that decides the result, as text: a walk goes on only with the same.
     fn identity(&self, gpu: &Gpu) -> String {
         let mut digest = Digest(DefaultHasher::new());
-        write!(digest, "{:?}", (&self.body, &self.dressing, &self.garments)).expect("a digest takes every text");
+        write!(digest, "{:?}", (&self.body, &self.dress_in, &self.garments)).expect("a digest takes every text");
         format!(
             "toile {} on {}\n{:?}\n{} frames, maps kept: {}\nbody and garments {:016x}\n",
             env!("CARGO_PKG_VERSION"),
@@ -77,6 +71,20 @@ impl Walk {
             self.precompute_maps,
             digest.0.finish(),
         )
+    }
+
+    /// The simulation at its start.
+    fn simulation(&self, gpu: &Gpu) -> Result<Simulation> {
+        let scene = Scene {
+            name: "walk".to_owned(),
+            cloths: self.garments.iter().cloned().map(Cloth::Garment).collect(),
+            bodies: vec![Body::Moving(self.body.clone())],
+            settings: self.settings.clone(),
+        };
+        Ok(match &self.dress_in {
+            Some(from) => Simulation::dressed_in(&gpu.device, &scene, from)?,
+            None => Simulation::new(&gpu.device, &scene)?,
+        })
     }
 }
 
@@ -90,11 +98,11 @@ impl std::fmt::Write for Digest {
     }
 }
 
-/// A garment that is dressed and goes along.
+/// A garment that goes along.
 struct Walker {
     name: String,
-    model: Model,
-    settings: StepSettings,
+    particle_count: u32,
+    steps_per_frame: u32,
     triangles: Vec<[u32; 3]>,
 }
 
@@ -104,18 +112,36 @@ pub fn walk(walk: &Walk, running: &Running) -> Result<()> {
     if running.place.backend == Backend::Reference {
         bail!("--backend reference: a walk needs a device; toile dress runs without one");
     }
-    let computer = Computer::Gpu(adapter::open(&running.place)?);
-    let Computer::Gpu(gpu) = &computer else { unreachable!("it was just opened") };
-    let saved = Saved::open(&running.out, walk.identity(gpu), walk.resume)?;
-    let walkers = walk.garments.iter().map(|garment| walker(garment, &walk.settings)).collect::<Result<Vec<_>>>()?;
-    if saved.frame_count() == 0 {
-        let mut states = dress(walk, &computer, running.quiet)?;
-        if let Some(way) = &walk.dressing {
-            states = go_to_start(walk, way, gpu, &walkers, &states)?;
+    let gpu = adapter::open(&running.place)?;
+    let saved = Saved::open(&running.out, walk.identity(&gpu), walk.resume)?;
+    let mut simulation = walk.simulation(&gpu)?;
+    if walk.precompute_maps {
+        let bytes =
+            simulation.keep_maps().context("--precompute-maps: leave the option out, or change --clip or --fps")?;
+        if !running.quiet && !running.json {
+            print(&format!("the maps of a round take {:.0} MiB", bytes as f64 / f64::from(1 << 20)))?;
         }
-        saved.write(0, &states, None)?;
     }
-    let collision_part = simulate(walk, gpu, &walkers, &saved, running)?;
+    match saved.frame_count() {
+        0 => {
+            simulation = dress(walk, &gpu, simulation, running.quiet)?;
+            saved.write(0, &simulation.save(&gpu.queue)?, &positions(&gpu, &simulation)?, None)?;
+        }
+        count => {
+            let state = saved.state(count - 1)?;
+            simulation.restore(&gpu.queue, &state).with_context(|| saved.damaged(count - 1))?;
+        }
+    }
+    let walkers: Vec<Walker> = simulation
+        .cloths()
+        .map(|worn| Walker {
+            name: worn.name.to_owned(),
+            particle_count: worn.model.particle_count(),
+            steps_per_frame: worn.cloth.settings().steps_per_frame,
+            triangles: worn.model.triangles(),
+        })
+        .collect();
+    let collision_part = simulate(walk, &gpu, &mut simulation, &saved, running)?;
     let rows = saved.rows(walk.frame_count)?;
     finish(walk, &walkers, &saved, running)?;
     let metrics = WalkMetrics::new(&gpu.name, &walk.settings, &walkers, collision_part, rows);
@@ -131,91 +157,60 @@ pub fn walk(walk: &Walk, running: &Running) -> Result<()> {
     Ok(())
 }
 
-fn walker(garment: &Garment, settings: &Settings) -> Result<Walker> {
-    let (model, _) = Model::from_garment(garment, settings)?.sewn();
-    let settings = step_settings(&garment.name, settings, &model)?;
-    Ok(Walker { name: garment.name.clone(), triangles: model.triangles(), model, settings })
-}
-
-/// Dresses the garments one over the other in the first pose.
-fn dress(walk: &Walk, computer: &Computer, quiet: bool) -> Result<Vec<GarmentState>> {
-    let thickness = walk.settings.fabric.thickness as f32;
-    let texel = walk.settings.texel as f32;
-    let body = walk.dressing.as_ref().unwrap_or(&walk.body);
-    let mut layers = vec![Layer { mesh: body.mesh.clone(), thickness }];
-    let mut states = Vec::new();
-    for garment in &walk.garments {
-        let around = Surroundings { computer, layers: &layers, shapes: Vec::new(), texel, quiet };
-        let worn = worn::dress(garment, &walk.settings, &around)?;
-        states.push(GarmentState::at_rest(&worn.mesh.positions));
-        layers.push(Layer { mesh: worn.mesh, thickness });
-    }
-    Ok(states)
-}
-
-/// The dressed garments go along while the body goes over to the start of its walk and waits there until they hang quietly. They ease
-/// on the way: with friction, shoulders keep the stretch that sinking arms leave in them.
-fn go_to_start(
-    walk: &Walk,
-    way: &MovingMesh,
-    gpu: &Gpu,
-    walkers: &[Walker],
-    states: &[GarmentState],
-) -> Result<Vec<GarmentState>> {
+/// Dresses the garments one over the other, and has the body go over to the start of its walk.
+fn dress(walk: &Walk, gpu: &Gpu, simulation: Simulation, quiet: bool) -> Result<Simulation> {
     let seconds = 1.0 / walk.settings.frame_rate;
-    let maps_per_frame = maps_per_frame(walkers[0].settings.steps_per_frame, walk.settings.frame_rate);
-    let garments: Vec<_> = walkers.iter().map(|walker| (&walker.model, walker.settings.easing())).collect();
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    let texel = walk.settings.texel as f32;
-    let mut outfit = Outfit::new(&gpu.device, &mut encoder, way, &garments, texel, maps_per_frame)?;
-    outfit.record_start(&gpu.device, &mut encoder, 0.0);
-    gpu.queue.submit([encoder.finish()]);
-    for ((cloth, walker), state) in outfit.garments().zip(walkers).zip(states) {
-        state.upload(gpu, cloth, &walker.model)?;
-    }
-    let frame_count = ((way.duration() + WAITING_SECONDS) / seconds).ceil() as u32;
-    for _ in 0..frame_count {
+    let mut logs: Vec<Log> = walk.garments.iter().map(|_| Log::default()).collect();
+    let mut engine = Engine::Gpu { gpu, simulation: Box::new(simulation) };
+    worn::dress(&mut engine, &mut logs.iter_mut().collect::<Vec<_>>(), seconds, quiet)?;
+    let Engine::Gpu { mut simulation, .. } = engine else { unreachable!("it was just made") };
+    // No time passes: what comes next begins.
+    engine::advance(gpu, &mut simulation, 0.0)?;
+    while engine::stage(gpu, &mut simulation)? != toile::Stage::Running {
         interrupt::check()?;
-        timed(gpu, |encoder| outfit.record(&gpu.device, encoder, seconds))?;
-        for cloth in outfit.garments_mut() {
-            status(cloth)?;
+        engine::advance(gpu, &mut simulation, seconds)?;
+        for worn in simulation.cloths() {
+            status(worn.cloth)?;
         }
+        engine::advance(gpu, &mut simulation, 0.0)?;
     }
-    outfit.garments().map(|cloth| GarmentState::download(gpu, cloth)).collect()
+    Ok(*simulation)
+}
+
+/// Positions of all cloths [m].
+fn positions(gpu: &Gpu, simulation: &Simulation) -> Result<Vec<Vec<Vec3>>> {
+    simulation.cloths().map(|worn| Ok(State::of(gpu, worn.cloth)?.positions)).collect()
 }
 
 /// Walks, frame by frame, and says which part of a step goes to the bodies.
-fn simulate(walk: &Walk, gpu: &Gpu, walkers: &[Walker], saved: &Saved, running: &Running) -> Result<f64> {
+fn simulate(walk: &Walk, gpu: &Gpu, simulation: &mut Simulation, saved: &Saved, running: &Running) -> Result<f64> {
     let seconds = 1.0 / walk.settings.frame_rate;
-    let maps_per_frame = maps_per_frame(walkers[0].settings.steps_per_frame, walk.settings.frame_rate);
     let done = saved.frame_count() - 1;
-    let mut outfit = start(walk, gpu, walkers, saved, running, maps_per_frame)?;
     let regions = Regions::new(&walk.body);
     let stage = Stage::new(&walk.body, f64::from(walk.frame_count) * seconds);
     std::fs::create_dir_all(&running.out)?;
     let progress = progress(walk.frame_count, done, running.quiet);
-    let mut last = vec![Status::default(); walkers.len()];
+    let before = simulation.cloths().map(|worn| Ok(worn.cloth.status()?.unwrap_or_default()));
+    let mut last: Vec<Status> = before.collect::<Result<_>>()?;
     for frame in done + 1..=walk.frame_count {
         interrupt::check().context(KEPT)?;
-        let [before, time] = [frame - 1, frame].map(|frame| f64::from(frame) * seconds);
-        let [maps_ms, simulated_ms] = advance(gpu, &mut outfit, before, seconds, maps_per_frame)?;
+        let time = f64::from(frame) * seconds;
+        let (_, [maps_ms, simulated_ms]) = simulation.advance_timed(&gpu.queue, seconds)?;
         let output = Instant::now();
         let body = walk.body.at(time);
         let (exact, mut inner) = (ExactDistance::new(&body), Vec::new());
         let mut row = FrameRow::new(frame, time, maps_ms, simulated_ms);
-        let (mut states, mut cloths) = (Vec::new(), Vec::new());
-        for ((cloth, walker), last) in outfit.garments_mut().zip(walkers).zip(&mut last) {
-            let status = status(cloth)?;
+        let (mut points, mut cloths) = (Vec::new(), Vec::new());
+        for (worn, last) in simulation.cloths().zip(&mut last) {
+            let status = status(worn.cloth)?;
             row.add_polish(last, &status);
             *last = status;
-            let state = GarmentState::download(gpu, cloth)?;
+            let state = State::of(gpu, worn.cloth)?;
             let (thickness, texel) = (walk.settings.fabric.thickness, walk.settings.texel as f32);
-            row.add(&walker.model, &state, &status, &exact, &inner, &body, &regions, thickness, texel);
-            let normals = readback::read_vec4s(&gpu.device, &gpu.queue, &cloth.frame().normals)?;
-            let normals = normals.into_iter().map(|normal| normal.truncate()).collect();
-            let mesh = Mesh { positions: state.positions(), normals, triangles: walker.triangles.clone() };
-            states.push(state);
-            if states.len() < walkers.len() {
+            row.add(worn.model, &state, &status, &exact, &inner, &body, &regions, thickness, texel);
+            let mesh = Mesh { positions: state.positions, normals: state.normals, triangles: worn.model.triangles() };
+            points.push(mesh.positions.clone());
+            if points.len() < walk.garments.len() {
                 inner.push(ExactDistance::new(&mesh));
             }
             cloths.push(mesh);
@@ -223,69 +218,18 @@ fn simulate(walk: &Walk, gpu: &Gpu, walkers: &[Walker], saved: &Saved, running: 
         let views = draw(&body, &cloths, walk.settings.fabric.thickness, stage.at(time))?;
         picture::save_png(&picture_path(&running.out, frame), &picture::strip(&views))?;
         row.output_ms = 1e3 * output.elapsed().as_secs_f64();
-        saved.write(frame, &states, Some(&row))?;
+        saved.write(frame, &simulation.save(&gpu.queue)?, &points, Some(&row))?;
         progress.inc(1);
     }
     progress.finish();
-    collision_part(gpu, &mut outfit)
-}
-
-/// The outfit as it was at the end of the last frame that is kept.
-fn start(
-    walk: &Walk,
-    gpu: &Gpu,
-    walkers: &[Walker],
-    saved: &Saved,
-    running: &Running,
-    maps_per_frame: u32,
-) -> Result<Outfit> {
-    let seconds = 1.0 / walk.settings.frame_rate;
-    let garments: Vec<_> = walkers.iter().map(|walker| (&walker.model, walker.settings.clone())).collect();
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    let texel = walk.settings.texel as f32;
-    let mut outfit = Outfit::new(&gpu.device, &mut encoder, &walk.body, &garments, texel, maps_per_frame)?;
-    if walk.precompute_maps {
-        let interval = seconds / f64::from(maps_per_frame);
-        if Outfit::can_keep_maps(&walk.body, interval).is_none() {
-            bail!(
-                "--precompute-maps needs a clip that ends as it begins, after a whole number of maps; it has {:.3} s, and a map is \
-                 drawn every {interval:.4} s: leave the option out, or change --clip or --fps",
-                walk.body.duration()
-            );
-        }
-        let bytes = outfit.keep_maps(&gpu.device, &mut encoder, &walk.body, interval);
-        if !running.quiet && !running.json {
-            print(&format!("the maps of a round take {:.0} MiB", bytes as f64 / f64::from(1 << 20)))?;
-        }
-    }
-    let done = saved.frame_count() - 1;
-    outfit.record_start(&gpu.device, &mut encoder, f64::from(done) * seconds);
-    gpu.queue.submit([encoder.finish()]);
-    for ((cloth, walker), state) in outfit.garments().zip(walkers).zip(&saved.read(done)?) {
-        state.upload(gpu, cloth, &walker.model)?;
-    }
-    Ok(outfit)
-}
-
-/// Goes on by a frame of `seconds` from a time [s]; how long poses and maps took, and the steps [ms].
-fn advance(gpu: &Gpu, outfit: &mut Outfit, time: f64, seconds: f64, maps_per_frame: u32) -> Result<[f64; 2]> {
-    let start = Instant::now();
-    let interval = seconds / f64::from(maps_per_frame);
-    let mut maps_ms = 0.0;
-    for index in 1..=maps_per_frame {
-        let next = time + interval * f64::from(index);
-        maps_ms += timed(gpu, |encoder| outfit.record_pose(&gpu.device, encoder, next))?;
-        timed(gpu, |encoder| outfit.record_steps(&gpu.device, encoder, interval))?;
-    }
-    timed(gpu, |encoder| outfit.record_outputs(encoder))?;
-    Ok([maps_ms, 1e3 * start.elapsed().as_secs_f64() - maps_ms])
+    collision_part(gpu, simulation)
 }
 
 /// Which part of one more step of every garment goes to the bodies [1]: each pass is timed alone.
-fn collision_part(gpu: &Gpu, outfit: &mut Outfit) -> Result<f64> {
+fn collision_part(gpu: &Gpu, simulation: &mut Simulation) -> Result<f64> {
     let timer = Timer::new(&gpu.device, &gpu.queue)?;
     let [mut whole, mut collision] = [0.0; 2];
-    for cloth in outfit.garments_mut() {
+    for cloth in simulation.cloths_mut() {
         for (kernel, time) in cloth.time_step(&gpu.device, &gpu.queue, &timer)? {
             match kernel {
                 Kernel::StateCopy => continue,
@@ -302,22 +246,6 @@ fn collision_part(gpu: &Gpu, outfit: &mut Outfit) -> Result<f64> {
         }
     }
     Ok(if whole > 0.0 { collision / whole } else { 0.0 })
-}
-
-/// How often the maps are drawn in a frame: at least at the map rate, and so that the steps divide evenly.
-fn maps_per_frame(steps: u32, frame_rate: f64) -> u32 {
-    let wanted = ((MAP_RATE / frame_rate).ceil() as u32).clamp(1, steps);
-    (wanted..=steps).find(|count| steps.is_multiple_of(*count)).unwrap_or(steps)
-}
-
-/// Submits what is recorded, waits, and says how long it took [ms].
-fn timed(gpu: &Gpu, record: impl FnOnce(&mut wgpu::CommandEncoder)) -> Result<f64> {
-    let start = Instant::now();
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    record(&mut encoder);
-    gpu.queue.submit([encoder.finish()]);
-    gpu.device.poll(wgpu::PollType::wait_indefinitely())?;
-    Ok(1e3 * start.elapsed().as_secs_f64())
 }
 
 fn progress(frame_count: u32, done: u32, quiet: bool) -> ProgressBar {
@@ -385,7 +313,7 @@ fn finish(walk: &Walk, walkers: &[Walker], saved: &Saved, running: &Running) -> 
     write_usda(&running.out.join("walk.usda"), &faces, count, rate, points)?;
     for (index, walker) in walkers.iter().enumerate() {
         let path = running.out.join(format!("{index}_{}.pc2", walker.name));
-        write_pc2(&path, walker.model.positions.len(), count, |frame| points(index, frame))?;
+        write_pc2(&path, walker.particle_count as usize, count, |frame| points(index, frame))?;
     }
     draw_strip(walk, walkers, saved, &running.out)?;
     let frames = (1..=walk.frame_count).map(|frame| picture_path(&running.out, frame));

@@ -1,14 +1,15 @@
-//! A cloth that has been simulated, and the way there.
+//! The cloths of a scene that have been simulated, and the way there.
 
-use crate::engine::{Computer, Engine, Layer, State};
+use crate::engine::{Computer, Engine, Look, State};
 use crate::progress::Progress;
-use crate::steps::step_settings;
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result};
 use std::collections::BTreeMap;
 use std::time::Instant;
+use toile::Stage;
+use toile::files::SceneFile;
 use toile::gpu::PassTime;
-use toile::model::{Dressing, DressingError, Merge, Model, Stage, Status, StepSettings};
-use toile::scene::{Garment, Mesh, Settings, Shape};
+use toile::model::{DressingStage, Model, Status, StepSettings};
+use toile::scene::{Cloth, Mesh};
 
 /// A cloth that has been simulated.
 pub struct Worn {
@@ -38,7 +39,7 @@ pub struct Worn {
     pub gpu_bytes: u64,
 }
 
-/// What was seen along the way.
+/// What was seen along the way of a cloth.
 #[derive(Default)]
 pub struct Log {
     /// Largest elongation at the end of any frame [1].
@@ -48,27 +49,10 @@ pub struct Log {
     step_ms: Vec<f64>,
 }
 
-/// What a cloth is simulated with.
-pub struct Surroundings<'a> {
-    /// What computes.
-    pub computer: &'a Computer,
-    /// Body and inner garments.
-    pub layers: &'a [Layer],
-    /// Analytic shapes.
-    pub shapes: Vec<Shape>,
-    /// Edge length of a map texel [m].
-    pub texel: f32,
-    /// No progress.
-    pub quiet: bool,
-}
-
 impl Log {
-    fn frame(&mut self, engine: &mut Engine<'_>, settings: &StepSettings) -> Result<Status> {
-        let start = Instant::now();
-        let status = engine.frame()?;
-        self.step_ms.push(1e3 * start.elapsed().as_secs_f64() / f64::from(settings.steps_per_frame));
+    fn add(&mut self, status: &Status, settings: &StepSettings, milliseconds: f64) {
+        self.step_ms.push(milliseconds / f64::from(settings.steps_per_frame));
         self.elongation_max = self.elongation_max.max(status.elongation_max);
-        Ok(status)
     }
 
     /// Median wall time of a step [ms].
@@ -79,88 +63,111 @@ impl Log {
     }
 }
 
-/// Sews a garment around what it finds, and drapes it until it is at rest.
-pub fn dress(garment: &Garment, settings: &Settings, around: &Surroundings<'_>) -> Result<Worn> {
-    let open = Model::from_garment(garment, settings)?;
-    let open_settings = step_settings(&garment.name, settings, &open)?.sewing();
-    let mut engine =
-        around.computer.start(&open, &open_settings, around.layers, around.shapes.clone(), around.texel)?;
-    let mut dressing = Dressing::new(&open, &open_settings);
-    let mut log = Log::default();
-    let progress = Progress::new(&garment.name, around.quiet);
-    while dressing.stage() == Stage::Sewing {
-        let status = log.frame(&mut engine, &open_settings)?;
-        progress.say(format!("sewing, step {}, widest gap {:.1} mm", status.step, 1e3 * status.seam_gap_max));
-        if let Err(error) = dressing.advance(&status, open.particle_count()) {
-            return Err(name_seam(error, &open, &engine, &garment.name));
-        }
+/// Dresses the garments of a scene one over the other; where it has sheets, everything then runs for its frames.
+pub fn run(file: &SceneFile, computer: &Computer, quiet: bool) -> Result<Vec<Worn>> {
+    let mut engine = computer.start(&file.scene)?;
+    let seconds = 1.0 / file.scene.settings.frame_rate;
+    let mut logs: Vec<Log> = file.scene.cloths.iter().map(|_| Log::default()).collect();
+    let of_garments = file.scene.cloths.iter().zip(&mut logs).filter(|(cloth, _)| matches!(cloth, Cloth::Garment(_)));
+    dress(&mut engine, &mut of_garments.map(|(_, log)| log).collect::<Vec<_>>(), seconds, quiet)?;
+    let mut dressed = engine.dressings().into_iter();
+    if file.scene.cloths.iter().any(|cloth| matches!(cloth, Cloth::Sheet(_))) {
+        run_frames(&mut engine, &mut logs, file, seconds, quiet)?;
     }
-    let (sewn, merge) = open.sewn();
-    let step = step_settings(&garment.name, settings, &sewn)?;
-    engine = engine.sewn(&sewn, &merge, &step.easing())?;
-    while dressing.stage() == Stage::Easing {
-        let status = log.frame(&mut engine, &step.easing())?;
-        progress.say(format!("easing, step {}, elongation {:.3}", status.step, status.elongation_max));
-        dressing.advance(&status, sewn.particle_count()).with_context(|| format!("garment {}", garment.name))?;
+    let (states, bytes) = (engine.states()?, engine.bytes());
+    let mut worn = Vec::new();
+    for ((look, State { positions, normals, touching }), log) in engine.cloths()?.into_iter().zip(states).zip(logs) {
+        let is_garment = matches!(file.scene.cloths[worn.len()], Cloth::Garment(_));
+        let dressing = if is_garment { dressed.next() } else { None };
+        worn.push(Worn {
+            name: look.name.to_owned(),
+            mesh: Mesh { positions, normals, triangles: look.model.triangles() },
+            model: look.model.clone(),
+            settings: look.settings,
+            touching,
+            status: look.status,
+            sewing_steps: dressing.as_ref().map_or(0, |dressing| dressing.sewing_steps()),
+            draping_steps: dressing.as_ref().map_or(look.status.step, |dressing| dressing.draping_steps()),
+            seam_gap: dressing.as_ref().map_or(0.0, |dressing| dressing.seam_gap()),
+            log,
+            gpu_bytes: bytes.get(worn.len()).copied().unwrap_or(0),
+            pass_times: BTreeMap::new(),
+        });
     }
-    let sewn_settings = step.draping();
-    engine = engine.sewn(&sewn, &Merge::identity(sewn.particle_count()), &sewn_settings)?;
-    while dressing.stage() == Stage::Draping {
-        let status = log.frame(&mut engine, &sewn_settings)?;
-        log.statuses.push(status);
-        let energy = status.kinetic_energy / sewn.particle_count() as f32;
-        progress.say(format!("draping, step {}, {energy:.1e} J per particle", status.step));
-        dressing.advance(&status, sewn.particle_count()).with_context(|| format!("garment {}", garment.name))?;
+    for (worn, times) in worn.iter_mut().zip(engine.pass_times()?) {
+        worn.pass_times = times;
     }
-    progress.finish(format!("dressed in {} + {} steps", dressing.sewing_steps(), dressing.draping_steps()));
-    let mut worn = finish(&garment.name, sewn, sewn_settings, engine, log)?;
-    worn.sewing_steps = dressing.sewing_steps();
-    worn.draping_steps = dressing.draping_steps();
-    worn.seam_gap = dressing.seam_gap();
     Ok(worn)
 }
 
-/// Runs a cloth without seams for a number of frames.
-pub fn run(name: &str, model: Model, frames: u32, settings: &Settings, around: &Surroundings<'_>) -> Result<Worn> {
-    let settings = step_settings(name, settings, &model)?;
-    let mut engine = around.computer.start(&model, &settings, around.layers, around.shapes.clone(), around.texel)?;
-    let mut log = Log::default();
-    let progress = Progress::new(name, around.quiet);
-    for frame in 1..=frames {
-        let status = log.frame(&mut engine, &settings)?;
-        log.statuses.push(status);
-        progress.say(format!("frame {frame} of {frames}, elongation {:.3}", status.elongation_max));
-    }
-    progress.finish(format!("{frames} frames of {} steps", settings.steps_per_frame));
-    finish(name, model, settings, engine, log)
-}
-
-fn finish(name: &str, model: Model, settings: StepSettings, mut engine: Engine<'_>, log: Log) -> Result<Worn> {
-    let status = log.statuses.last().copied().unwrap_or_default();
-    let State { positions, normals, touching } = engine.state()?;
-    Ok(Worn {
-        name: name.to_owned(),
-        mesh: Mesh { positions, normals, triangles: model.triangles() },
-        model,
-        settings,
-        touching,
-        status,
-        sewing_steps: 0,
-        draping_steps: status.step,
-        seam_gap: 0.0,
-        log,
-        gpu_bytes: engine.bytes(),
-        pass_times: engine.pass_times()?,
-    })
-}
-
-/// Names the seam that stayed open.
-fn name_seam(error: DressingError, open: &Model, engine: &Engine<'_>, garment: &str) -> anyhow::Error {
-    let seam = match (&error, engine.state()) {
-        (DressingError::SeamsOpen { .. }, Ok(state)) => {
-            open.widest_seam(&state.positions).map(|(name, _)| format!(", seam {name}")).unwrap_or_default()
+/// Dresses every garment until it is at rest. There is a log for each garment.
+pub fn dress(engine: &mut Engine<'_>, logs: &mut [&mut Log], seconds: f64, quiet: bool) -> Result<()> {
+    let mut told: Vec<Progress> = Vec::new();
+    loop {
+        let stage = engine.stage()?;
+        for (progress, dressing) in told.iter().zip(engine.dressings()) {
+            if dressing.stage() == DressingStage::Dressed {
+                let (sewing, draping) = (dressing.sewing_steps(), dressing.draping_steps());
+                progress.finish(format!("dressed in {sewing} + {draping} steps"));
+            }
         }
-        _ => String::new(),
-    };
-    anyhow!(error).context(format!("garment {garment}{seam}"))
+        if stage >= Stage::Dressed {
+            return Ok(());
+        }
+        let start = Instant::now();
+        if engine.frame(seconds)? == 0 {
+            // The device has still to say how large the garments below are.
+            continue;
+        }
+        let milliseconds = 1e3 * start.elapsed().as_secs_f64();
+        let cloths = engine.cloths()?;
+        let look = cloths.last().context("a garment is being dressed")?;
+        let log = &mut logs[cloths.len() - 1];
+        log.add(&look.status, &look.settings, milliseconds);
+        if stage == Stage::Draping {
+            log.statuses.push(look.status);
+        }
+        if told.len() < cloths.len() {
+            told.push(Progress::new(look.name, quiet));
+        }
+        if let Some(progress) = told.last() {
+            progress.say(stage_line(stage, look));
+        }
+    }
+}
+
+fn stage_line(stage: Stage, look: &Look<'_>) -> String {
+    let status = &look.status;
+    match stage {
+        Stage::Sewing => format!("sewing, step {}, widest gap {:.1} mm", status.step, 1e3 * status.seam_gap_max),
+        Stage::Easing => format!("easing, step {}, elongation {:.3}", status.step, status.elongation_max),
+        _ => {
+            let energy = status.kinetic_energy / look.model.particle_count().max(1) as f32;
+            format!("draping, step {}, {energy:.1e} J per particle", status.step)
+        }
+    }
+}
+
+/// Runs all cloths together for the frames of the scene.
+fn run_frames(engine: &mut Engine<'_>, logs: &mut [Log], file: &SceneFile, seconds: f64, quiet: bool) -> Result<()> {
+    let progress = Progress::new(&file.scene.name, quiet);
+    logs.iter_mut().for_each(|log| log.statuses.clear());
+    let mut frame = 0;
+    while frame < file.frames {
+        let start = Instant::now();
+        if engine.frame(seconds)? == 0 {
+            continue;
+        }
+        frame += 1;
+        let milliseconds = 1e3 * start.elapsed().as_secs_f64();
+        let cloths = engine.cloths()?;
+        for (look, log) in cloths.iter().zip(logs.iter_mut()) {
+            log.add(&look.status, &look.settings, milliseconds);
+            log.statuses.push(look.status);
+        }
+        let elongation = cloths.iter().map(|look| look.status.elongation_max).fold(0.0, f32::max);
+        progress.say(format!("frame {frame} of {}, elongation {elongation:.3}", file.frames));
+    }
+    progress.finish(format!("{frame} frames"));
+    Ok(())
 }

@@ -1,16 +1,21 @@
 //! Bodies from OBJ, PLY, glTF and GLB files.
 
-use crate::error::{Fault, FileError, Found, Place};
-use crate::gltf_rig::ClipChoice;
-use crate::{gltf_body, obj, ply, source};
+mod gltf_body;
+mod gltf_file;
+pub(crate) mod gltf_rig;
+pub(crate) mod mesh_sequence;
+pub(crate) mod moving_body;
+mod obj;
+mod ply;
+mod ply_header;
+mod soup;
+
+use crate::body::gltf_rig::ClipChoice;
+use crate::error::{Fault, FileError, Found, Place, rounded};
+use crate::plausible::{HEIGHTS, WIDTH_MAX};
+use crate::source;
 use std::path::Path;
 use toile_scene::Mesh;
-
-/// Heights [m] that a body can have. Outside, the unit is wrong rather than the person.
-pub(crate) const HEIGHTS: [f64; 2] = [0.2, 4.0];
-
-/// Largest extent of a body to the sides [m]. Wider, something lies far from it, and its maps would be mostly empty.
-pub(crate) const WIDTH_MAX: f64 = 10.0;
 
 /// The endings that [`read_body`] knows.
 const ENDINGS: &str = ".obj, .ply, .gltf, .glb";
@@ -119,13 +124,4 @@ pub(crate) fn check_height(mesh: &Mesh, metres_per_unit: f64) -> Result<(), Foun
         None => "no unit from mm to m makes it a body's size".into(),
     };
     Err(Fault::BodyUnits { height: rounded(height), advice }.into())
-}
-
-/// Three significant digits, for a sentence.
-pub(crate) fn rounded(value: f64) -> String {
-    if value >= 1e6 {
-        return format!("{value:.2e}");
-    }
-    let digits = if value > 0.0 { (2.0 - value.log10().floor()).clamp(0.0, 12.0) as usize } else { 0 };
-    format!("{value:.digits$}")
 }

@@ -1,5 +1,6 @@
 //! Why a file cannot be used: which file, where in it, and what to do.
 
+use crate::plausible::{HEIGHTS, LARGEST_PANEL, WIDTH_MAX};
 use std::fmt;
 use std::path::PathBuf;
 
@@ -107,8 +108,8 @@ pub enum Fault {
     /// A body that is no human size in the declared unit.
     #[error(
         "the body is {height} m tall, and bodies are {} m to {} m tall: {advice}",
-        crate::body::HEIGHTS[0],
-        crate::body::HEIGHTS[1]
+        HEIGHTS[0],
+        HEIGHTS[1]
     )]
     BodyUnits {
         /// Height in the declared unit [m], rounded for reading.
@@ -119,7 +120,7 @@ pub enum Fault {
     /// A body with something far from it.
     #[error(
         "the body is {width} m wide, and bodies are at most {} m to the sides: remove what lies far from it",
-        crate::body::WIDTH_MAX
+        WIDTH_MAX
     )]
     BodyWidth {
         /// Larger extent to the sides [m], rounded for reading.
@@ -128,7 +129,7 @@ pub enum Fault {
     /// A panel that is no size of a garment in the declared unit.
     #[error(
         "the panel is {size} m large, and panels are at most {} m: check units_in_meter, which is {units_in_meter}",
-        crate::garment::LARGEST_PANEL
+        LARGEST_PANEL
     )]
     PanelUnits {
         /// Longer side of the panel's box [m], rounded for reading.
@@ -168,6 +169,15 @@ pub enum Fault {
 
 fn listed(names: &[String]) -> String {
     if names.is_empty() { "none".into() } else { names.join(", ") }
+}
+
+/// Three significant digits, for a sentence.
+pub(crate) fn rounded(value: f64) -> String {
+    if value >= 1e6 {
+        return format!("{value:.2e}");
+    }
+    let digits = if value > 0.0 { (2.0 - value.log10().floor()).clamp(0.0, 12.0) as usize } else { 0 };
+    format!("{value:.digits$}")
 }
 
 /// A fault and its place, before the path is known.

@@ -1,16 +1,16 @@
 //! Garments from GarmentCode's JSON.
 
-use crate::body::rounded;
-use crate::error::{Fault, FileError, Found, Place};
-use crate::garment_json::{self, CurvatureJson, EdgeJson, Number, PanelJson, SideJson, StitchPart};
-use crate::{crossing, source};
+mod crossing;
+mod garment_json;
+
+use crate::error::{Fault, FileError, Found, Place, rounded};
+use crate::garment::garment_json::{CurvatureJson, EdgeJson, Number, PanelJson, SideJson, StitchPart};
+use crate::plausible::LARGEST_PANEL;
+use crate::source;
 use glam::{DQuat, DVec2, DVec3, EulerRot};
 use std::collections::HashMap;
 use std::path::Path;
 use toile_scene::{Curve, Edge, EdgeRef, Garment, Panel, Placement, Seam};
-
-/// Largest side of a panel's box [m]. Above, the unit is wrong.
-pub(crate) const LARGEST_PANEL: f64 = 10.0;
 
 /// Least distance of the ends of an edge [m]. Below, it is a slip of the pattern.
 const SHORTEST_EDGE: f64 = 1e-6;

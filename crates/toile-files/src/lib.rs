@@ -1,36 +1,20 @@
 //! Garment, body and scene files in, dressed meshes out, errors with path and place.
 
 mod body;
-mod crossing;
 mod error;
-mod fabric;
 mod garment;
-mod garment_json;
-mod gltf_body;
-mod gltf_file;
-mod gltf_rig;
-mod mesh_sequence;
-mod motion;
-mod moving_body;
-mod obj;
-mod ply;
-mod ply_header;
+mod out;
+mod plausible;
 mod scene;
-mod scene_body;
-mod scene_toml;
-mod soup;
 mod source;
-mod toml_text;
-mod write;
-mod write_glb;
 
+pub use body::mesh_sequence::read_mesh_sequence;
+pub use body::moving_body::{MovingBodyFile, parse_moving_body, read_moving_body};
 pub use body::{BodyFile, BodyOptions, parse_body, read_body};
 pub use error::{Fault, FileError, Place};
-pub use fabric::read_fabric;
 pub use garment::{parse_garment, read_garment};
-pub use mesh_sequence::read_mesh_sequence;
-pub use motion::{MovingFaces, write_pc2, write_usda};
-pub use moving_body::{MovingBodyFile, parse_moving_body, read_moving_body};
+pub use out::motion::{MovingFaces, write_pc2, write_usda};
+pub use out::write::{write_atomically, write_obj};
+pub use out::write_glb::{NamedMesh, write_glb};
+pub use scene::fabric::read_fabric;
 pub use scene::{SceneFile, read_scene};
-pub use write::{write_atomically, write_obj};
-pub use write_glb::{NamedMesh, write_glb};

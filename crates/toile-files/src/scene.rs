@@ -1,12 +1,21 @@
 //! Scenes from TOML.
 
+pub(crate) mod fabric;
+mod problem;
+mod scene_body;
+mod scene_toml;
+mod toml_text;
+mod value;
+
 use crate::error::{FileError, Found, Place};
-use crate::fabric::{self, Problem};
 use crate::garment::read_garment;
-use crate::scene_toml::{CornerToml, FrictionToml, PinToml, PolishToml, RuleToml, SceneToml, SheetToml, WindToml};
-use crate::{scene_body, source, toml_text};
-use glam::{DVec2, DVec3};
-use std::fmt::Display;
+use crate::scene::problem::Problem;
+use crate::scene::scene_toml::{
+    CornerToml, FrictionToml, PinToml, PolishToml, RuleToml, SceneToml, SheetToml, WindToml,
+};
+use crate::scene::value::{SIZES, vector, within, wrong};
+use crate::source;
+use glam::DVec2;
 use std::ops::RangeInclusive;
 use std::path::Path;
 use toile_scene::{
@@ -16,10 +25,6 @@ use toile_scene::{
 /// Frames of a scene that does not say: two seconds at 60 per second.
 const FRAMES: u32 = 120;
 
-/// Lengths of a sheet, a sphere's radius [m] and periods [s]: what is smaller or larger is a slip of the keyboard.
-pub(crate) const SIZES: RangeInclusive<f64> = 1e-3..=1e3;
-/// Largest component of a vector: positions [m], velocities [m/s] and gravity [m/s²] beyond it are slips too.
-const COMPONENT_MAX: f64 = 1e6;
 /// Drag and lift of the air.
 const WIND_COEFFICIENTS: RangeInclusive<f64> = 0.0..=100.0;
 /// What is a part of a whole.
@@ -80,29 +85,6 @@ fn convert(toml: SceneToml, stem: &str, folder: &Path) -> Result<SceneFile, Prob
     }
     let name = toml.name.unwrap_or_else(|| stem.into());
     Ok(SceneFile { scene: Scene { name, cloths, bodies, settings }, frames, warnings })
-}
-
-pub(crate) fn wrong(key: &str, message: impl Into<String>) -> Found {
-    Found::malformed(Place::Key(key.into()), message)
-}
-
-/// The value, where it lies in a range; the unit stands in the error.
-pub(crate) fn within<T>(key: &str, value: T, range: RangeInclusive<T>, unit: &str) -> Result<T, Found>
-where
-    T: PartialOrd + Display,
-{
-    if range.contains(&value) {
-        return Ok(value);
-    }
-    let space = if unit.is_empty() { "" } else { " " };
-    Err(wrong(key, format!("it is {value} and must be {} to {}{space}{unit}", range.start(), range.end())))
-}
-
-pub(crate) fn vector(key: &str, value: [f64; 3]) -> Result<DVec3, Found> {
-    if value.iter().all(|component| component.abs() <= COMPONENT_MAX) {
-        return Ok(DVec3::from(value));
-    }
-    Err(wrong(key, format!("it must be three numbers of at most {COMPONENT_MAX}")))
 }
 
 fn settings(toml: &SceneToml, folder: &Path) -> Result<Settings, Problem> {

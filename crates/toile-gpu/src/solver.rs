@@ -197,7 +197,7 @@ impl Solver {
                 self.dispatch(&mut compute, dispatch, place, &mut last);
             }
         }
-        self.step += u64::from(count);
+        self.step += steps.len() as u64;
     }
 
     /// The buffers whose contents carry over from step to step, and their names: all that a saved simulation needs. Usage `COPY_SRC` and `COPY_DST`.
@@ -325,7 +325,7 @@ impl Solver {
     }
 
     /// The newest status that has arrived, without waiting; `None` before the first frame is done.
-    pub fn status(&mut self) -> Option<Status> {
+    pub fn status(&self) -> Option<Status> {
         self.status.latest()
     }
 
@@ -355,6 +355,12 @@ impl Solver {
         self.buffers.find("limit_impulses")
     }
 
+    /// Goes on from a state that was written into the buffers of [`Solver::state`]: so many steps are done, and this was reported of them.
+    pub fn resume(&mut self, step: u64, status: Option<Status>) {
+        self.step = step;
+        self.status.resume(status);
+    }
+
     /// The passes of a step and of a frame.
     pub fn plan(&self) -> &Plan {
         &self.plan
@@ -368,11 +374,6 @@ impl Solver {
     /// Steps recorded so far.
     pub fn step(&self) -> u64 {
         self.step
-    }
-
-    /// Goes on from a step: for a state that another solver left there. Shapes stand where they are then.
-    pub fn set_step(&mut self, step: u64) {
-        self.step = step;
     }
 
     /// Bytes of all buffers; maps are counted by [`BodyMaps::bytes`].

@@ -1,46 +1,25 @@
 //! A scene turned into immutable arrays: meshing, springs, sewing, limits, colouring.
 //!
-//! [`Model`] is what the solvers (GPU and reference) read. It is built once on the CPU and never changes.
+//! [`Model`] is what the solvers (GPU and reference) read. It is built once on the CPU and never changes. `mesh` makes flat meshes of
+//! panels, `cloth` makes the arrays of them, and `run` has what a run needs beside them.
 
-mod assemble;
-mod bending;
-mod colouring;
+mod cloth;
 mod csr;
-mod dressing;
-mod elements;
 mod error;
-mod fan;
-mod flat_mesh;
-mod geometry;
-mod lattice;
-mod lines;
-mod long_limits;
-mod map_box;
-mod model;
-mod needs;
-mod open;
-mod outline;
-mod rectangle;
-mod rim;
-mod seams;
-mod sewn;
-mod shape_step;
-mod smoothing;
-mod soften;
-mod springs;
-mod status;
-mod step;
+mod mesh;
+mod run;
 mod union_find;
 
+pub use cloth::digest::digest_of;
+pub use cloth::long_limits::{STRAND_PARTICLES_MAX, path_chord};
+pub use cloth::model::{Attachment, Hold, Limit, Link, Merge, Model, PanelMesh, SeamPair, Spring, SpringKind, Strand};
 pub use csr::Csr;
-pub use dressing::{Dressing, DressingError, Stage};
 pub use error::ModelError;
-pub use long_limits::{STRAND_PARTICLES_MAX, path_chord};
-pub use map_box::MapBox;
-pub use model::{
-    Attachment, Hold, Limit, Link, Merge, Model, NO_CORNER, PanelMesh, SeamPair, Spring, SpringKind, Strand,
-};
-pub use needs::{Maps, Needs};
-pub use shape_step::{ShapeKind, ShapeStep};
-pub use status::Status;
-pub use step::StepSettings;
+pub use mesh::geometry::NO_CORNER;
+pub use mesh::inside::Inside;
+pub use run::dressing::{Dressing, DressingError, DressingStage};
+pub use run::map_box::MapBox;
+pub use run::needs::{Maps, Needs};
+pub use run::shape_step::{ShapeKind, ShapeStep};
+pub use run::status::Status;
+pub use run::step::StepSettings;

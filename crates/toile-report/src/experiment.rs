@@ -1,7 +1,7 @@
 //! One section of the report, before it is measured.
 
 use crate::page::Section;
-use crate::{Lab, LabError, Scale};
+use toile_lab::{Lab, LabError, Scale};
 
 /// One section of the report, before it is measured.
 #[derive(Clone, Copy, Debug)]
@@ -20,5 +20,10 @@ impl Experiment {
     /// How long it takes at a scale [min].
     pub fn minutes_at(&self, scale: Scale) -> f64 {
         self.minutes[usize::from(scale == Scale::Full)]
+    }
+
+    /// Its section, without any block yet.
+    pub fn section(&self, lead: impl Into<String>) -> Section {
+        Section { name: self.name.to_owned(), title: self.title.to_owned(), lead: lead.into(), blocks: Vec::new() }
     }
 }

@@ -49,6 +49,7 @@ pub struct Cloth {
     solver: Solver,
     colliders: Colliders,
     frame: Frame,
+    is_sewing: bool,
 }
 
 impl Cloth {
@@ -96,7 +97,7 @@ impl Cloth {
             particle_count: model.particle_count(),
             index_count: 3 * triangles.len() as u32,
         };
-        Self { solver, colliders, frame }
+        Self { solver, colliders, frame, is_sewing: !model.seam_pairs.is_empty() }
     }
 
     /// Records one frame into the caller's encoder: its steps, then normals and status. What is recorded counts as done, so an encoder that
@@ -138,6 +139,30 @@ impl Cloth {
         self.solver.record_steps(device, encoder, steps, interval);
     }
 
+    /// Records that a cloth of the same model takes the state of this one.
+    pub(crate) fn record_state(&self, encoder: &mut wgpu::CommandEncoder, to: &Cloth) {
+        for (name, from) in self.solver.state() {
+            if let Some((_, to)) = to.solver.state().find(|(known, _)| *known == name) {
+                encoder.copy_buffer_to_buffer(from, 0, to, 0, from.size());
+            }
+        }
+    }
+
+    /// The buffers whose contents carry over from step to step, by name.
+    pub(crate) fn state(&self) -> impl Iterator<Item = (&'static str, &wgpu::Buffer)> {
+        self.solver.state()
+    }
+
+    /// Goes on from a state that was written into these buffers.
+    pub(crate) fn resume(&mut self, step: u64, status: Option<Status>) {
+        self.solver.resume(step, status);
+    }
+
+    /// Whether it is a garment with open seams.
+    pub(crate) fn is_sewing(&self) -> bool {
+        self.is_sewing
+    }
+
     /// Records normals and status, as the end of a frame whose steps were recorded one by one.
     pub fn record_outputs(&mut self, encoder: &mut wgpu::CommandEncoder) {
         self.solver.record_outputs(encoder);
@@ -167,7 +192,7 @@ impl Cloth {
     ///
     /// # Errors
     /// [`Error::Diverged`] when a particle is not finite.
-    pub fn status(&mut self) -> Result<Option<Status>, Error> {
+    pub fn status(&self) -> Result<Option<Status>, Error> {
         let status = self.solver.status();
         if let Some(Status { step, non_finite_count: count, first_non_finite: Some(particle), .. }) = status {
             return Err(Error::Diverged { step, particle, count });
@@ -180,7 +205,7 @@ impl Cloth {
     ///
     /// # Errors
     /// [`Error::Diverged`] when a particle is not finite.
-    pub fn strain(&mut self) -> Result<Option<Strain>, Error> {
+    pub fn strain(&self) -> Result<Option<Strain>, Error> {
         Ok(self.status()?.map(|status| Strain {
             step: status.step,
             elongation_max: status.elongation_max,
@@ -219,6 +244,11 @@ impl Cloth {
     /// [`Rule::Predictive`](toile_scene::Rule::Predictive) or [`Rule::Hierarchical`](toile_scene::Rule::Hierarchical).
     pub fn limit_impulses(&self) -> Option<&wgpu::Buffer> {
         self.solver.limit_impulses()
+    }
+
+    /// The maps of what it collides with; `None` without any.
+    pub fn maps(&self) -> Option<&BodyMaps> {
+        self.colliders.maps.as_deref()
     }
 
     /// Steps recorded so far.

@@ -12,12 +12,52 @@ pub enum Error {
     /// The cloth cannot be meshed.
     #[error(transparent)]
     Model(#[from] toile_model::ModelError),
+    /// A frame of a cloth would have more steps than a run could end with.
+    #[error(
+        "{cloth}: a frame would take {steps} steps, and at most {most} are done: use softer springs, heavier or coarser cloth, a larger safety \
+         factor, or the rule \"hierarchical\", which needs few"
+    )]
+    Steps {
+        /// Name of the garment or sheet.
+        cloth: String,
+        /// Steps of a frame.
+        steps: u32,
+        /// Most steps of a frame.
+        most: u32,
+    },
+    /// A garment could not be dressed.
+    #[error("garment {garment}: {source}")]
+    Dressing {
+        /// Name of the garment.
+        garment: String,
+        /// Why.
+        source: toile_model::DressingError,
+    },
     /// The motion of a body leads to no place.
     #[error("the body has no finite position at {time} s of its motion: mend its clip, or choose another one")]
     Body {
         /// First time at which it was seen [s].
         time: f64,
     },
+    /// A body cannot go over from the pose that its garments are sewn in.
+    #[error(
+        "the pose to dress in is not one of the body that moves: it must move the same joints, and the scene must have one such body"
+    )]
+    Pose,
+    /// The maps of a round cannot be kept.
+    #[error(
+        "maps can be kept of one body whose clip ends as it begins, after a whole number of maps; this one has {duration:.3} s, and a map is \
+         drawn every {interval:.4} s: choose another clip or frame rate, or draw the maps as the body moves"
+    )]
+    Round {
+        /// Length of the motion [s].
+        duration: f64,
+        /// Time from one map to the next [s].
+        interval: f64,
+    },
+    /// A saved state is not one of this simulation.
+    #[error("the saved state cannot be restored: {0}")]
+    State(String),
     /// The state is not finite.
     #[error(
         "the simulation diverged: {count} particles are not finite or faster than 1 km/s at step {step}, the first is particle {particle}; use the default rule, softer springs or a smaller safety factor"

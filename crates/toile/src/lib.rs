@@ -1,18 +1,26 @@
 //! Cloth simulation on the GPU: every step runs as WGSL compute passes.
 //!
-//! The host gives a device, a queue and a command encoder; [`Cloth`] records into the encoder and gives back buffers of
-//! positions, normals and indices. It never submits, never waits and never maps a buffer in the frame loop.
+//! A scene becomes a [`Simulation`] on the host's device. It records into the host's encoder and gives back buffers of positions,
+//! normals and indices. It never submits, never waits and never maps a buffer in the frame loop.
 
+mod boxes;
+mod clock;
 mod cloth;
 mod error;
+mod fitting;
 mod frame;
 mod outfit;
+mod piece;
+mod pose;
+mod simulation;
+mod state;
 mod strain;
 
+pub use clock::Advance;
 pub use cloth::{Cloth, Colliders};
 pub use error::Error;
 pub use frame::Frame;
-pub use outfit::{MovingFrame, Outfit};
+pub use simulation::{Simulation, Stage, Worn};
 pub use strain::Strain;
 pub use toile_files as files;
 pub use toile_gpu as gpu;

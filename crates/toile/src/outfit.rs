@@ -1,83 +1,54 @@
-//! Garments that walk together on a moving body.
+//! Cloths that go together on bodies, each over the ones before it.
 
+use crate::boxes::Boxes;
 use crate::{Cloth, Colliders, Error};
-use glam::Vec3;
+use std::ops::Range;
 use std::sync::Arc;
 use toile_gpu::{BodyMaps, MovingBody, Surface, Trail};
 use toile_model::{MapBox, Model, StepSettings};
-use toile_scene::MovingMesh;
+use toile_scene::{Mesh, MovingMesh, Shape};
 
-/// Bounds of a body are looked up in a table of so many per second [1/s].
-const BOUNDS_RATE: f64 = 60.0;
-/// What the table adds on every side [m]: a body goes no farther between two of its times, and inner garments hang out of it.
-const BOUNDS_MARGIN: f32 = 0.03;
-/// What is added around a body for the garments that lie under another one [m].
-const GARMENT_MARGIN: f32 = 0.25;
+/// Maps of moving bodies are drawn so often at least [1/s]; in between, surfaces go straight on by the velocity map.
+const MAP_RATE: f64 = 60.0;
 
-/// Where the maps of a moving body stand: as large as the body ever needs, around where it is.
-#[derive(Clone, Debug)]
-pub struct MovingFrame {
-    bounds: Vec<[Vec3; 2]>,
-    /// Length of a round [s], for a motion that repeats.
-    round: Option<f64>,
-    margin: f32,
-    texel: f32,
-    size: [u32; 2],
+/// What the cloths of an outfit collide with.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Bodies {
+    pub(crate) still: Vec<Mesh>,
+    pub(crate) moving: Vec<MovingMesh>,
+    pub(crate) shapes: Vec<Shape>,
 }
 
-impl MovingFrame {
-    /// The frames of a body with texels of the edge length `texel` [m], and `thickness` of cloth around it [m]; `layered` when
-    /// garments show in the maps too.
-    ///
-    /// # Errors
-    /// [`Error::Body`] when a position of the body is not finite at some time.
-    pub fn new(body: &MovingMesh, texel: f32, thickness: f32, layered: bool) -> Result<Self, Error> {
-        let count = (body.duration() * BOUNDS_RATE).ceil() as u32 + 1;
-        let bounds_at = |index| {
-            let time = f64::from(index) / BOUNDS_RATE;
-            let posed = body.at(time);
-            // Bounds alone do not tell: they pass over what is no number.
-            let finite = posed.positions.iter().all(|position| position.is_finite());
-            if finite { Ok(posed.bounds().unwrap_or_default()) } else { Err(Error::Body { time }) }
-        };
-        let bounds = (0..count).map(bounds_at).collect::<Result<_, _>>()?;
-        let margin = thickness + BOUNDS_MARGIN + if layered { GARMENT_MARGIN } else { 0.0 };
-        let mut frame = Self { bounds, round: body.is_closed().then(|| body.duration()), margin, texel, size: [0; 2] };
-        let sizes = (0..count as usize).map(|index| {
-            let [low, high] = frame.between(index);
-            high - low
-        });
-        let largest = sizes.fold(Vec3::ZERO, Vec3::max);
-        frame.size = MapBox::size_for(largest, texel);
-        Ok(frame)
-    }
-
-    /// The frame at a time [s].
-    pub fn at(&self, time: f64) -> MapBox {
-        let time = self.round.map_or(time, |round| time.rem_euclid(round)).max(0.0);
-        // A time of the table stays one whatever the rounding: frames of the same pose are then the same.
-        MapBox::moving(self.between((time * BOUNDS_RATE + 1e-4) as usize), self.texel, self.size)
-    }
-
-    /// The box around the body from one time of the table to the next.
-    fn between(&self, index: usize) -> [Vec3; 2] {
-        let [a, b] =
-            [self.bounds[index.min(self.bounds.len() - 1)], self.bounds[(index + 1).min(self.bounds.len() - 1)]];
-        [a[0].min(b[0]) - self.margin, a[1].max(b[1]) + self.margin]
-    }
+/// Which part of the work is recorded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Part {
+    /// Poses of the bodies and their maps.
+    Maps,
+    /// Everything else.
+    Steps,
 }
 
-/// Garments that walk together on a moving body: each collides with the body and with the garments under it.
+/// Takes what is to be recorded: into the host's encoder, or, to be timed, into one of its own.
+pub(crate) type Recorder<'a> = dyn FnMut(Part, &mut dyn FnMut(&mut wgpu::CommandEncoder)) -> Result<(), Error> + 'a;
+
+/// Cloths that go together on bodies: each collides with the bodies and with the cloths before it.
 #[derive(Debug)]
-pub struct Outfit {
-    body: MovingBody,
-    frame: MovingFrame,
+pub(crate) struct Outfit {
+    moving: Vec<MovingBody>,
+    still: Vec<Surface>,
+    /// Where the maps stand while anything in them moves.
+    boxes: Option<Boxes>,
+    /// Where they stand now; `None` without maps.
+    shown: Option<MapBox>,
     thickness: f32,
+    /// Simulated time of a frame [s].
+    frame_seconds: f64,
     maps_per_frame: u32,
-    time: f64,
-    /// Where the maps stand.
-    shown: MapBox,
-    garments: Vec<Garment>,
+    /// Parts done, see [`Outfit::part_seconds`].
+    done: u64,
+    /// The interval at whose end the bodies stand; `None` before their first pose.
+    posed: Option<u64>,
+    layers: Vec<Layer>,
     kept: Option<KeptMaps>,
 }
 
@@ -90,201 +61,312 @@ struct KeptMaps {
     maps: Vec<(BodyMaps, MapBox)>,
 }
 
+/// One cloth and what it sees.
 #[derive(Debug)]
-struct Garment {
+struct Layer {
     cloth: Cloth,
-    maps: Arc<BodyMaps>,
-    /// What the maps of the next garment draw of this one; the outermost has none.
+    maps: Option<Arc<BodyMaps>>,
+    /// What the maps of the next cloth draw of this one; the outermost has none.
     seen: Option<Seen>,
 }
 
-/// A garment as the one over it sees it.
+/// A cloth as the one over it sees it.
 #[derive(Debug)]
 struct Seen {
     surface: Surface,
     trail: Trail,
 }
 
+/// How often the maps are drawn in a frame of so many steps: at least at the map rate, and so that the steps divide evenly.
+pub(crate) fn maps_per_frame(steps: u32, frame_rate: f64) -> u32 {
+    let wanted = ((MAP_RATE / frame_rate).ceil() as u32).clamp(1, steps);
+    (wanted..=steps).find(|count| steps.is_multiple_of(*count)).unwrap_or(steps)
+}
+
 impl Outfit {
-    /// An outfit at the first pose of a body, whose garments begin at rest where their models have them; to begin elsewhere,
-    /// write into the buffers of [`Outfit::garments`]. Garments come from the inside out, and all have the same settings of
-    /// frame, step and thickness. The maps are drawn `maps_per_frame` times in each frame.
+    /// Cloths at the start of their models, from the inside out, and the bodies before their first pose. Maps of moving surfaces stand at
+    /// `boxes`, those of surfaces at rest at `shown`. Pipelines are those of `alike`, as far as it has them.
     ///
     /// # Errors
-    /// [`Error::Gpu`] when body, maps or a garment do not fit the device, [`Error::Body`] when the body is not finite at some time.
-    ///
-    /// # Panics
-    /// When the steps of a frame are not a multiple of `maps_per_frame`, and as [`Cloth::new`].
-    pub fn new(
+    /// [`Error::Gpu`] when bodies, maps or a cloth do not fit the device.
+    pub(crate) fn new(
         device: &wgpu::Device,
-        encoder: &mut wgpu::CommandEncoder,
-        body: &MovingMesh,
-        garments: &[(&Model, StepSettings)],
-        texel: f32,
-        maps_per_frame: u32,
+        bodies: &Bodies,
+        cloths: &[(&Model, StepSettings)],
+        boxes: Option<Boxes>,
+        still_box: Option<MapBox>,
+        frame_rate: f64,
+        alike: Option<&Cloth>,
     ) -> Result<Self, Error> {
-        let thickness = garments.iter().map(|(_, settings)| settings.thickness).fold(0.0, f32::max);
-        let frame = MovingFrame::new(body, texel, thickness, garments.len() > 1)?;
-        let shown = frame.at(0.0);
-        let mut moving = MovingBody::new(device, body)?;
-        moving.record_pose(device, encoder, 0.0);
-        let outermost = garments.len().saturating_sub(1);
-        let mut dressed: Vec<Garment> = Vec::new();
-        for (model, settings) in garments {
-            let steps = settings.steps_per_frame;
-            assert!(maps_per_frame > 0 && steps % maps_per_frame == 0, "{steps} steps, {maps_per_frame} maps");
-            let maps = Arc::new(match dressed.last() {
-                None => BodyMaps::new(device, shown, true)?,
-                Some(inner) => inner.maps.new_alike(device),
-            });
-            let colliders = Colliders { maps: Some(maps.clone()), shapes: Vec::new() };
-            let cloth = match dressed.last() {
-                None => Cloth::new(device, model, settings, colliders)?,
-                Some(inner) => inner.cloth.new_alike(device, model, settings, colliders)?,
+        let thickness = cloths.iter().map(|(_, settings)| settings.thickness).fold(0.0, f32::max);
+        let maps_per_frame = cloths.first().map_or(1, |(_, step)| maps_per_frame(step.steps_per_frame, frame_rate));
+        let moving = bodies.moving.iter().map(|body| MovingBody::new(device, body)).collect::<Result<Vec<_>, _>>()?;
+        let at_rest = |mesh| match boxes {
+            Some(_) => Surface::at_rest(device, mesh),
+            None => Surface::new(device, mesh),
+        };
+        let still: Vec<Surface> = bodies.still.iter().map(at_rest).collect();
+        let shown = boxes.as_ref().map(|boxes| boxes.at(0.0)).or(still_box);
+        let has_meshes = !(moving.is_empty() && still.is_empty());
+        let outermost = cloths.len().saturating_sub(1);
+        let mut layers: Vec<Layer> = Vec::new();
+        for (model, step) in cloths {
+            // Where there is no body to see, the innermost cloth sees nothing.
+            let map_box = shown.filter(|_| has_meshes || !layers.is_empty());
+            let drawn = layers.iter().find_map(|layer| layer.maps.as_ref());
+            let maps = match (map_box, drawn) {
+                (None, _) => None,
+                (Some(_), Some(drawn)) => Some(drawn.new_alike(device)),
+                (Some(map_box), None) => Some(BodyMaps::new(device, map_box, boxes.is_some())?),
+            };
+            let maps = maps.map(Arc::new);
+            let colliders = Colliders { maps: maps.clone(), shapes: bodies.shapes.clone() };
+            let cloth = match layers.last().map(|inner| &inner.cloth).or(alike) {
+                None => Cloth::new(device, model, step, colliders)?,
+                Some(known) => known.new_alike(device, model, step, colliders)?,
             };
             let drawn = cloth.frame();
-            let seen = (dressed.len() < outermost).then(|| {
+            let seen = (layers.len() < outermost).then(|| {
                 let trail = Trail::new(device, &drawn.positions, drawn.particle_count);
                 let surface = Surface { velocities: Some(trail.velocities().clone()), ..Surface::from(drawn) };
                 Seen { surface, trail }
             });
-            dressed.push(Garment { cloth, maps, seen });
+            layers.push(Layer { cloth, maps, seen });
         }
-        Ok(Self { body: moving, frame, thickness, maps_per_frame, time: 0.0, shown, garments: dressed, kept: None })
+        Ok(Self {
+            moving,
+            still,
+            boxes,
+            shown,
+            thickness,
+            frame_seconds: 1.0 / frame_rate,
+            maps_per_frame,
+            done: 0,
+            posed: None,
+            layers,
+            kept: None,
+        })
     }
 
-    /// Draws the maps of a whole round of the body now and keeps them, one every `interval` seconds: frames then copy them instead
-    /// of posing and drawing the body. Gives the bytes that they take. D §7, W §6.
+    /// Draws the maps of a whole round of the only body now and keeps them: later they are copied instead of drawn. D §7, W §6.
     ///
     /// # Panics
-    /// When the outfit has no garment, or the motion is not closed or not a whole number of intervals long; see [`Outfit::can_keep_maps`].
-    pub fn keep_maps(
+    /// When [`Outfit::maps_of_round`] is none.
+    pub(crate) fn keep_maps(
         &mut self,
         device: &wgpu::Device,
-        encoder: &mut wgpu::CommandEncoder,
         body: &MovingMesh,
-        interval: f64,
-    ) -> u64 {
-        let count = Self::can_keep_maps(body, interval).expect("a closed motion of a whole number of intervals");
-        let first = self.garments.first().expect("an outfit has a garment").maps.clone();
-        self.body.record_pose(device, encoder, 0.0);
+        recorder: &mut Recorder<'_>,
+    ) -> Result<(), Error> {
+        let interval = self.interval_seconds();
+        let count = maps_of_round(body, interval).expect("a closed motion of a whole number of intervals");
+        let (Some(boxes), Some(first)) = (&self.boxes, self.layers.first().and_then(|layer| layer.maps.clone())) else {
+            return Ok(());
+        };
         let mut maps = Vec::with_capacity(count as usize);
-        for index in 1..=count {
-            let time = f64::from(index) * interval;
-            self.body.record_pose(device, encoder, time);
-            let frame = self.frame.at(time);
-            let drawn = first.new_alike(device);
-            drawn.record(device, encoder, frame, &[(self.body.surface(), self.thickness)]);
-            maps.push((drawn, frame));
-        }
-        let bytes = maps.iter().map(|(maps, _)| maps.bytes()).sum();
+        recorder(Part::Maps, &mut |encoder| {
+            let moving = &mut self.moving[0];
+            moving.record_pose(device, encoder, 0.0);
+            for index in 1..=count {
+                let time = f64::from(index) * interval;
+                moving.record_pose(device, encoder, time);
+                let map_box = boxes.at(time);
+                let drawn = first.new_alike(device);
+                drawn.record(device, encoder, map_box, &[(moving.surface(), self.thickness)]);
+                maps.push((drawn, map_box));
+            }
+        })?;
+        self.posed = None;
         self.kept = Some(KeptMaps { interval, maps });
-        bytes
+        Ok(())
     }
 
-    /// How many maps a round of a body has, one every `interval` seconds; `None` when its motion is not closed or not a whole
-    /// number of intervals long.
-    pub fn can_keep_maps(body: &MovingMesh, interval: f64) -> Option<u32> {
-        let count = body.duration() / interval;
-        (body.is_closed() && (count - count.round()).abs() < 1e-3 && count >= 1.0).then(|| count.round() as u32)
-    }
-
-    /// Goes to a time without simulating: the body takes the pose of then [s].
-    pub fn record_start(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, time: f64) {
-        self.body.record_pose(device, encoder, time);
-        self.time = time;
-    }
-
-    /// Records one frame of `seconds`: the body moves on, and every garment after it.
-    pub fn record(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, seconds: f64) {
-        let interval = seconds / f64::from(self.maps_per_frame);
-        let start = self.time;
-        for index in 0..self.maps_per_frame {
-            self.record_pose(device, encoder, start + interval * f64::from(index + 1));
-            self.record_steps(device, encoder, interval);
+    /// Time of the parts in which the outfit goes on [s]: a step; where a cloth lies over another one, an interval of the maps, in which each
+    /// cloth in its turn does all its steps.
+    pub(crate) fn part_seconds(&self) -> f64 {
+        match self.layers.as_slice() {
+            [only] => self.frame_seconds / f64::from(only.cloth.settings().steps_per_frame),
+            _ => self.interval_seconds(),
         }
-        self.record_outputs(encoder);
     }
 
-    /// Records the next pose of the body [s], and what the innermost garment sees of it.
-    pub fn record_pose(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, time: f64) {
-        self.time = time;
+    /// Simulated time from one drawing of the maps to the next [s].
+    pub(crate) fn interval_seconds(&self) -> f64 {
+        self.frame_seconds / f64::from(self.maps_per_frame)
+    }
+
+    /// Time at the end of an interval, counted from 1; 0 is the start [s].
+    fn time_of(&self, interval: u64) -> f64 {
+        let maps = u64::from(self.maps_per_frame);
+        let (frames, rest) = (interval / maps, interval % maps);
+        frames as f64 * self.frame_seconds + self.interval_seconds() * rest as f64
+    }
+
+    /// The interval that the next part belongs to, and where in it the part lies.
+    fn place_in_interval(&self, part: u64) -> (u64, u32) {
+        match self.layers.as_slice() {
+            [only] => {
+                let steps = u64::from(only.cloth.settings().steps_per_frame / self.maps_per_frame);
+                (part / steps, (part % steps) as u32)
+            }
+            _ => (part, 0),
+        }
+    }
+
+    /// Goes on from a state that was written into the cloths: so many parts are done.
+    pub(crate) fn resume(&mut self, done: u64) {
+        self.done = done;
+        self.posed = None;
+    }
+
+    /// Records parts, as many as are due; then normals and status.
+    pub(crate) fn record(
+        &mut self,
+        device: &wgpu::Device,
+        parts: Range<u64>,
+        recorder: &mut Recorder<'_>,
+    ) -> Result<u32, Error> {
+        assert_eq!(parts.start, self.done, "parts follow one another");
+        let mut most = 0;
+        while self.done < parts.end {
+            let (interval, first) = self.place_in_interval(self.done);
+            self.pose(device, interval, recorder)?;
+            let steps = match self.layers.as_mut_slice() {
+                [only] => {
+                    let all = only.cloth.settings().steps_per_frame / self.maps_per_frame;
+                    let last = all.min(first + (parts.end - self.done) as u32);
+                    recorder(Part::Steps, &mut |encoder| only.cloth.record_steps(device, encoder, first..last, all))?;
+                    self.done += u64::from(last - first);
+                    last - first
+                }
+                _ => {
+                    recorder(Part::Steps, &mut |encoder| self.record_interval(device, encoder))?;
+                    self.done += 1;
+                    let steps = self.layers.iter().map(|layer| layer.cloth.settings().steps_per_frame);
+                    steps.max().unwrap_or(0) / self.maps_per_frame
+                }
+            };
+            most += steps;
+        }
+        if most > 0 {
+            recorder(Part::Steps, &mut |encoder| {
+                for layer in &mut self.layers {
+                    layer.cloth.record_outputs(encoder);
+                }
+            })?;
+        }
+        Ok(most)
+    }
+
+    /// Has the bodies stand as they do at the end of an interval, and the innermost maps show them.
+    fn pose(&mut self, device: &wgpu::Device, interval: u64, recorder: &mut Recorder<'_>) -> Result<(), Error> {
+        if self.posed == Some(interval + 1) {
+            return Ok(());
+        }
+        if self.posed != Some(interval) {
+            let time = self.time_of(interval);
+            recorder(Part::Maps, &mut |encoder| {
+                self.moving.iter_mut().for_each(|body| body.record_pose(device, encoder, time));
+            })?;
+        }
+        let time = self.time_of(interval + 1);
+        let begins = self.posed.is_none();
+        self.posed = Some(interval + 1);
+        if self.boxes.is_none() && !begins {
+            return Ok(());
+        }
+        recorder(Part::Maps, &mut |encoder| self.record_maps(device, encoder, time))
+    }
+
+    /// Records the pose of the bodies at a time [s], and what the innermost cloth sees of them.
+    fn record_maps(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, time: f64) {
+        let innermost = self.layers.first().and_then(|layer| layer.maps.as_ref());
         if let Some(kept) = &self.kept {
             let index = (time / kept.interval).round() as usize + kept.maps.len() - 1;
-            let (maps, frame) = &kept.maps[index % kept.maps.len()];
-            self.shown = *frame;
-            if let Some(innermost) = self.garments.first() {
-                innermost.maps.record_copy(device, encoder, maps, *frame);
+            let (maps, map_box) = &kept.maps[index % kept.maps.len()];
+            self.shown = Some(*map_box);
+            if let Some(innermost) = innermost {
+                innermost.record_copy(device, encoder, maps, *map_box);
             }
             return;
         }
-        self.body.record_pose(device, encoder, time);
-        self.shown = self.frame.at(time);
-        if let Some(innermost) = self.garments.first() {
-            innermost.maps.record(device, encoder, self.shown, &[(self.body.surface(), self.thickness)]);
+        self.moving.iter_mut().for_each(|body| body.record_pose(device, encoder, time));
+        if let Some(boxes) = &self.boxes {
+            self.shown = Some(boxes.at(time));
+        }
+        if let (Some(innermost), Some(shown)) = (innermost, self.shown) {
+            let surfaces = self.still.iter().chain(self.moving.iter().map(MovingBody::surface));
+            let drawn: Vec<_> = surfaces.map(|surface| (surface, self.thickness)).collect();
+            innermost.record(device, encoder, shown, &drawn);
         }
     }
 
-    /// Records the steps of all garments up to the pose of the body, which it took `interval` after the pose before [s].
-    pub fn record_steps(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, interval: f64) {
-        for index in 0..self.garments.len() {
-            let (inner, outer) = self.garments.split_at_mut(index);
-            let garment = &mut outer[0];
-            if let Some(Garment { maps, seen: Some(seen), .. }) = inner.last() {
-                // What the garment below sees, and that garment, which has gone to the same time already.
-                garment.maps.record_copy(device, encoder, maps, self.shown);
-                garment.maps.record_over(device, encoder, &[(&seen.surface, self.thickness)]);
+    /// Records the steps of all cloths up to the pose of the bodies.
+    fn record_interval(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder) {
+        let interval = self.interval_seconds();
+        for index in 0..self.layers.len() {
+            let (inner, outer) = self.layers.split_at_mut(index);
+            let layer = &mut outer[0];
+            if let (Some(below), Some(maps), Some(shown)) = (inner.last(), &layer.maps, self.shown) {
+                let seen = below.seen.as_ref().expect("a cloth below another one is seen");
+                // What the cloth below sees, and that cloth, which has gone to the same time already.
+                match &below.maps {
+                    Some(seen_below) => {
+                        maps.record_copy(device, encoder, seen_below, shown);
+                        maps.record_over(device, encoder, &[(&seen.surface, self.thickness)]);
+                    }
+                    None => maps.record(device, encoder, shown, &[(&seen.surface, self.thickness)]),
+                }
             }
-            let steps = garment.cloth.settings().steps_per_frame / self.maps_per_frame;
-            if let Some(seen) = &garment.seen {
+            let steps = layer.cloth.settings().steps_per_frame / self.maps_per_frame;
+            if let Some(seen) = &mut layer.seen {
                 seen.trail.record_leaving(encoder);
             }
-            garment.cloth.record_steps(device, encoder, 0..steps, steps);
-            if let Some(seen) = &mut garment.seen {
-                // The garment over this one sees it as it is now.
+            layer.cloth.record_steps(device, encoder, 0..steps, steps);
+            if let Some(seen) = &mut layer.seen {
+                // The cloth over this one sees it as it is now.
                 seen.trail.record_arrival(device, encoder, interval);
-                garment.cloth.record_normals(encoder);
+                layer.cloth.record_normals(encoder);
             }
         }
     }
 
-    /// Records normals and status of all garments.
-    pub fn record_outputs(&mut self, encoder: &mut wgpu::CommandEncoder) {
-        for garment in &mut self.garments {
-            garment.cloth.record_outputs(encoder);
-        }
+    /// The cloths, from the inside out.
+    pub(crate) fn cloths(&self) -> impl ExactSizeIterator<Item = &Cloth> {
+        self.layers.iter().map(|layer| &layer.cloth)
     }
 
-    /// The garments, from the inside out.
-    pub fn garments(&self) -> impl ExactSizeIterator<Item = &Cloth> {
-        self.garments.iter().map(|garment| &garment.cloth)
+    /// The cloths, from the inside out.
+    pub(crate) fn cloths_mut(&mut self) -> impl ExactSizeIterator<Item = &mut Cloth> {
+        self.layers.iter_mut().map(|layer| &mut layer.cloth)
     }
 
-    /// The garments, from the inside out.
-    pub fn garments_mut(&mut self) -> impl ExactSizeIterator<Item = &mut Cloth> {
-        self.garments.iter_mut().map(|garment| &mut garment.cloth)
+    /// The bodies on the device, as the maps draw them: those at rest, then those that move.
+    pub(crate) fn bodies(&self) -> impl Iterator<Item = &Surface> {
+        self.still.iter().chain(self.moving.iter().map(MovingBody::surface))
     }
 
-    /// The body on the device, as the maps draw it.
-    pub fn body(&self) -> &Surface {
-        self.body.surface()
+    /// Where the maps stand.
+    pub(crate) fn shown(&self) -> Option<MapBox> {
+        self.shown
     }
 
-    /// The maps that a garment collides with, from the inside out.
-    pub fn maps(&self) -> impl ExactSizeIterator<Item = &BodyMaps> {
-        self.garments.iter().map(|garment| garment.maps.as_ref())
+    /// Time in the motion of the bodies that their surfaces and maps show [s].
+    pub(crate) fn body_time(&self) -> f64 {
+        self.posed.map_or(0.0, |interval| self.time_of(interval))
     }
 
-    /// Time in the motion of the body [s].
-    pub fn time(&self) -> f64 {
-        self.time
-    }
-
-    /// Bytes on the device.
-    pub fn bytes(&self) -> u64 {
-        let trails = |garment: &Garment| garment.seen.as_ref().map_or(0, |seen| seen.trail.bytes());
-        let garments = self.garments.iter().map(|garment| garment.cloth.bytes() + trails(garment));
+    /// Bytes on the device beside those of the cloths.
+    pub(crate) fn bytes(&self) -> u64 {
+        let trails = self.layers.iter().flat_map(|layer| &layer.seen).map(|seen| seen.trail.bytes());
         let kept = self.kept.iter().flat_map(|kept| &kept.maps).map(|(maps, _)| maps.bytes());
-        self.body.bytes() + garments.sum::<u64>() + kept.sum::<u64>()
+        self.moving.iter().map(MovingBody::bytes).sum::<u64>() + trails.sum::<u64>() + kept.sum::<u64>()
     }
+}
+
+/// How many maps a round of a body has, one every `interval` seconds; `None` when its motion is not closed or not a whole number of
+/// intervals long.
+pub(crate) fn maps_of_round(body: &MovingMesh, interval: f64) -> Option<u32> {
+    let count = body.duration() / interval;
+    (body.is_closed() && (count - count.round()).abs() < 1e-3 && count >= 1.0).then(|| count.round() as u32)
 }

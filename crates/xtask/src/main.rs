@@ -1,10 +1,14 @@
 //! The two commands of the README: they set up what a fresh machine lacks, then do their work.
 //!
-//! `cargo xtask dress …` is `toile dress …`; `cargo xtask test` checks the format, lints, builds the documentation and runs
-//! every test. CI runs the same.
+//! `cargo xtask dress …` is `toile dress …`; `cargo xtask test` checks the format, lints, builds the documentation, runs every test,
+//! runs parity on a second driver and compiles the kernels with a second compiler. CI runs the same.
 
+mod install;
+mod second_driver;
+mod tint;
+
+use install::install;
 use std::env;
-use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
@@ -61,14 +65,20 @@ fn test() -> Result<(), String> {
         ensure_adapter(&toile, "")?;
         say(&format!("the tests run on a GPU, where the bits of some may differ: {message}"));
     }
-    cargo(&["test", "--workspace"])
+    cargo(&["test", "--workspace"])?;
+    let driver = second_driver::parity()?;
+    tint::check(driver.as_deref())
 }
 
 /// The program that cargo built beside this one.
 fn built(profile: &str) -> Result<PathBuf, String> {
+    Ok(target()?.join(profile).join("toile").with_extension(env::consts::EXE_EXTENSION))
+}
+
+/// The folder that cargo builds into.
+fn target() -> Result<PathBuf, String> {
     let own = env::current_exe().map_err(|error| format!("where this program lies is not known: {error}"))?;
-    let target = own.ancestors().nth(2).ok_or("this program does not lie in a target folder")?;
-    Ok(target.join(profile).join("toile").with_extension(env::consts::EXE_EXTENSION))
+    Ok(own.ancestors().nth(2).ok_or("this program does not lie in a target folder")?.to_owned())
 }
 
 /// Installs a Vulkan driver that works on the CPU where there is no adapter of a kind and this machine can, or says what to run.
@@ -77,22 +87,9 @@ fn ensure_adapter(toile: &Path, kind: &str) -> Result<(), String> {
         return Ok(());
     }
     say("no such adapter found: a Vulkan driver that works on the CPU is installed");
-    let manual = format!("apt-get update && apt-get install -y {}", PACKAGES.join(" "));
-    let debian = fs::read_to_string("/etc/os-release").is_ok_and(|text| text.contains("debian"));
-    if !debian {
-        return Err(format!("install a Vulkan driver; on Debian or Ubuntu: {manual}"));
+    if !install(&PACKAGES)? {
+        return Err(format!("install a Vulkan driver; on Debian or Ubuntu: {}", install::by_hand(&PACKAGES)));
     }
-    let root = matches!(command("id", &["-u"]).output(), Ok(output) if output.stdout.trim_ascii() == b"0");
-    let apt = |arguments: &[&str]| {
-        let words = if root { vec!["apt-get"] } else { vec!["sudo", "--non-interactive", "apt-get"] };
-        let words = [&words, arguments].concat();
-        let mut command = command(words[0], &words[1..]);
-        command.env("DEBIAN_FRONTEND", "noninteractive").stdin(Stdio::null());
-        run(command)
-    };
-    apt(&["update"])
-        .and_then(|()| apt(&[&["install", "--yes", "--no-install-recommends"], &PACKAGES[..]].concat()))
-        .map_err(|error| format!("{error}; run as root: {manual}"))?;
     match has_adapter(toile, kind)? {
         true => Ok(()),
         false => Err("a Vulkan driver is installed, but no adapter is found; `toile adapters` says why".to_owned()),

@@ -1,6 +1,6 @@
 //! What the user types of `toile report`.
 
-use super::{Backend, Place};
+use super::place::{Backend, Place};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use std::path::PathBuf;

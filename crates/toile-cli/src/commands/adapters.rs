@@ -2,7 +2,7 @@
 
 use crate::adapter;
 use crate::args::Adapters;
-use crate::commands::print;
+use crate::stdout::print;
 use anyhow::{Result, bail};
 use serde_json::json;
 

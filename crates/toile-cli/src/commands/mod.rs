@@ -11,7 +11,6 @@ mod walk;
 
 use crate::args::Command;
 use anyhow::Result;
-use std::io::{self, ErrorKind, Write};
 
 /// Does what the user typed.
 pub fn run(command: &Command) -> Result<()> {
@@ -23,13 +22,5 @@ pub fn run(command: &Command) -> Result<()> {
         Command::Plan(arguments) => plan::run(arguments),
         Command::Report(arguments) => report::run(arguments),
         Command::Adapters(arguments) => adapters::run(arguments),
-    }
-}
-
-/// Prints a line of the result. A reader that has read enough, such as `head`, is no error.
-pub fn print(text: &str) -> Result<()> {
-    match writeln!(io::stdout(), "{text}") {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(error.into()),
-        _ => Ok(()),
     }
 }

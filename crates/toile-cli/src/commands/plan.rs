@@ -1,9 +1,10 @@
 //! `toile plan`: what a scene gets, without an adapter.
 
 use crate::args::PlanOf;
-use crate::commands::{outfit, print};
+use crate::commands::outfit;
 use crate::pattern::{self, Pattern};
-use crate::simulate::{check_bodies, shapes};
+use crate::simulate::shapes;
+use crate::stdout::print;
 use crate::steps::step_settings;
 use anyhow::Result;
 use glam::Vec3;
@@ -82,7 +83,6 @@ struct KernelPlan {
 
 /// The plans of all cloths; a garment has one for sewing and one for draping.
 fn plans(scene: &Scene, patterns: &[Pattern]) -> Result<Vec<ClothPlan>> {
-    check_bodies(scene)?;
     let shapes = shapes(scene);
     let mut bounds = bounds(scene);
     let mut plans = Vec::new();

@@ -2,17 +2,18 @@
 
 use crate::adapter;
 use crate::args::ReportOf;
-use crate::commands::print;
 use crate::interrupt::{self, Interrupted};
 use crate::output;
+use crate::stdout::print;
 use anyhow::{Context, Result};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use toile::files::write_atomically;
+use toile_lab::{Lab, LabError, Progress, Scale};
 use toile_report::page::{self, Page, Report};
-use toile_report::{EXPERIMENTS, Experiment, Lab, LabError, Scale};
+use toile_report::{EXPERIMENTS, Experiment};
 
 /// Runs the experiments and writes the report, or puts two reports side by side.
 pub fn run(arguments: &ReportOf) -> Result<()> {
@@ -106,7 +107,7 @@ impl Clock {
     }
 
     /// What an experiment tells its progress to.
-    fn listener(&self, index: usize) -> toile_report::Progress {
+    fn listener(&self, index: usize) -> Progress {
         let before: f64 = self.plan[..index].iter().map(|(_, minutes)| minutes).sum();
         let total: f64 = self.plan.iter().map(|(_, minutes)| minutes).sum();
         let (name, minutes) = self.plan[index];

@@ -2,15 +2,15 @@
 
 use crate::adapter;
 use crate::args::{Backend, Rules};
-use crate::commands::print;
-use crate::engine::Computer;
+use crate::engine::{Computer, State};
 use crate::interrupt::Interrupted;
 use crate::output;
 use crate::picture::{self, Drawn, View};
 use crate::progress::Progress;
 use crate::simulate::shapes;
+use crate::stdout::print;
 use crate::steps::step_settings;
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use glam::{DVec3, Vec3};
 use serde::Serialize;
 use toile::files::{SceneFile, read_scene, write_atomically};
@@ -92,14 +92,18 @@ fn try_rule(
         );
     }
     if scene.bodies.len() != shapes.len() || shapes.len() > 1 {
-        bail!("scene {} has a mesh body: the rules are compared on a sheet alone or with a sphere", scene.name);
+        bail!(
+            "scene {} has a mesh body or several shapes: the rules are compared on a sheet alone or with one shape",
+            scene.name
+        );
     }
-    let mut settings = scene.settings.clone();
-    settings.velocity_modification.rule = rule;
-    let model = Model::from_sheet(sheet, &settings);
-    let step = step_settings(name, &settings, &model)?;
-    let mut engine = computer.start(&model, &step, &[], shapes.clone(), settings.texel as f32)?;
-    let mut state = engine.state()?;
+    let mut scene = scene.clone();
+    scene.settings.velocity_modification.rule = rule;
+    let model = Model::from_sheet(sheet, &scene.settings);
+    let step = step_settings(name, &scene.settings, &model)?;
+    let mut engine = computer.start(&scene)?;
+    let seconds = 1.0 / scene.settings.frame_rate;
+    let mut state = State { positions: model.positions.clone(), ..State::default() };
     let mut last = Status::default();
     let mut row = Row {
         rule: name,
@@ -119,10 +123,11 @@ fn try_rule(
     let mut lags = Vec::new();
     let progress = Progress::new(name, quiet);
     while row.frames_sound < file.frames {
-        match engine.frame() {
+        let done = engine.frame(seconds).and_then(|_| only(engine.cloths()?).map(|look| look.status));
+        match done {
             Ok(status) => {
                 last = status;
-                state = engine.state()?;
+                state = only(engine.states()?)?;
                 row.frames_sound += 1;
                 lags.extend(lag(&state.positions, &status));
                 row.elongation_max_over_run = row.elongation_max_over_run.max(status.elongation_max);
@@ -143,6 +148,11 @@ fn try_rule(
     let end = last.step as f64 * f64::from(step.dt);
     let ball = shapes.first().map(|sphere| sphere.mesh(end));
     Ok((row, Mesh { positions: state.positions, normals: state.normals, triangles: model.triangles() }, ball))
+}
+
+/// The one cloth that there is.
+fn only<T>(cloths: Vec<T>) -> Result<T> {
+    cloths.into_iter().next().context("a scene of one sheet has one cloth")
 }
 
 /// Distance of the centre of mass of the cloth from a point [m], without y.

@@ -2,7 +2,7 @@
 
 use crate::args::{Outfit, Walk};
 use crate::commands::outfit;
-use crate::walk::{self, dressing};
+use crate::walk;
 use anyhow::{Result, bail};
 use toile::scene::{Settings, Wind};
 
@@ -21,12 +21,12 @@ pub fn run(arguments: &Walk) -> Result<()> {
     let garments = outfit::read_garments(outfit)?;
     let settings =
         Settings { frame_rate: arguments.fps, wind: arguments.wind.map(Wind::new), ..outfit::settings(outfit)? };
-    let dressing = match &arguments.dress_in {
+    let dress_in = match &arguments.dress_in {
         Some(clip) => {
             let from = outfit::read_moving_body(&Outfit { clip: Some(clip.clone()), ..outfit.clone() })?.0;
-            Some(dressing::from_clip(&from, clip, &body)?)
+            Some(from)
         }
-        None => dressing::from_rest(&body, &garments, &settings)?,
+        None => None,
     };
     let seconds = arguments.seconds.unwrap_or(body.duration());
     let frame_count = (seconds * arguments.fps).round() as u32;
@@ -36,7 +36,7 @@ pub fn run(arguments: &Walk) -> Result<()> {
     walk::walk(
         &walk::Walk {
             body,
-            dressing,
+            dress_in,
             garments,
             settings,
             frame_count,

@@ -1,6 +1,6 @@
 //! How a cloth lies on what it wears under it: exact distances in f64, not those of the maps.
 
-use super::measures::max_and_p99;
+use super::largest::max_and_p99;
 use crate::worn::Worn;
 use glam::DVec3;
 use toile::scene::{Body, Mesh, Shape};
@@ -52,11 +52,11 @@ impl Exact {
 }
 
 impl Surfaces {
-    /// The bodies of a scene; cloth keeps `thickness` [m] from them and from garments below it.
-    pub fn new(bodies: &[Body], thickness: f64) -> Self {
+    /// The bodies of a scene as they stand at a time [s]; cloth keeps `thickness` [m] from them and from garments below it.
+    pub fn new(bodies: &[Body], thickness: f64, time: f64) -> Self {
         let exact = |body: &Body| match body {
             Body::Mesh(mesh) => Exact::Mesh(Box::new(ExactDistance::new(mesh))),
-            Body::Moving(body) => Exact::Mesh(Box::new(ExactDistance::new(&body.mesh))),
+            Body::Moving(body) => Exact::Mesh(Box::new(ExactDistance::new(&body.at(time)))),
             Body::Shape(shape) => Exact::Shape(shape.clone()),
         };
         Self { thickness, bodies: bodies.iter().map(exact).collect(), garments: Vec::new() }

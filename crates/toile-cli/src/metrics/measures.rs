@@ -1,6 +1,7 @@
 //! The numbers of one cloth, and how those of several become one.
 
-use super::Surfaces;
+use super::contact::Surfaces;
+use super::largest::max_and_p99;
 use crate::worn::Worn;
 use serde::Serialize;
 
@@ -146,13 +147,6 @@ impl Measures {
     }
 }
 
-/// Largest value, and the one that 99 of 100 do not exceed; `None` without values. NaN counts as the largest.
-pub fn max_and_p99(mut values: Vec<f64>) -> Option<[f64; 2]> {
-    values.sort_by(f64::total_cmp);
-    let rank = (99 * values.len()).div_ceil(100);
-    Some([*values.last()?, values[rank - 1]])
-}
-
 /// Elongation of every structural and shear spring at the end [1].
 fn elongations(worn: &Worn) -> Vec<f64> {
     let positions = &worn.mesh.positions;
@@ -169,15 +163,6 @@ fn elongations(worn: &Worn) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_99th_percentile_is_a_value_that_occurs() {
-        let values: Vec<f64> = (1..=200).rev().map(f64::from).collect();
-        assert_eq!(max_and_p99(values), Some([200.0, 198.0]));
-        assert_eq!(max_and_p99(vec![3.0]), Some([3.0, 3.0]));
-        assert_eq!(max_and_p99(vec![]), None);
-        assert!(max_and_p99(vec![f64::NAN, 1.0]).is_some_and(|[max, _]| max.is_nan()));
-    }
 
     #[test]
     fn two_cloths_add_up_and_show_the_worse() {

@@ -2,7 +2,7 @@
 
 use super::Walker;
 use super::regions::Regions;
-use super::saved::GarmentState;
+use crate::engine::State;
 use crate::metrics::{is_far, max_and_p99, reach};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -104,7 +104,7 @@ impl FrameRow {
     pub fn add(
         &mut self,
         model: &Model,
-        state: &GarmentState,
+        state: &State,
         status: &Status,
         exact: &ExactDistance,
         inner: &[ExactDistance],
@@ -113,7 +113,7 @@ impl FrameRow {
         thickness: f64,
         texel: f32,
     ) {
-        let positions = state.positions();
+        let positions = &state.positions;
         let elongation = |limit: &toile::model::Limit| {
             let [a, b] = limit.ends.map(|end| positions[end as usize].as_dvec3());
             a.distance(b) / f64::from(limit.rest_length) - 1.0
@@ -130,8 +130,8 @@ impl FrameRow {
         let depths: Vec<f64> = positions.iter().map(|p| exact.penetration(p.as_dvec3())).collect();
         let reach = reach(thickness, texel);
         let mut false_count = 0;
-        for ((position, depth), touching) in positions.iter().zip(&depths).zip(state.touching()) {
-            if touching && is_far(position.as_dvec3(), *depth, inner, reach) {
+        for ((position, depth), touching) in positions.iter().zip(&depths).zip(&state.touching) {
+            if *touching && is_far(position.as_dvec3(), *depth, inner, reach) {
                 false_count += 1;
                 let region = regions.nearest(body, position.as_dvec3());
                 *self.false_contacts_by_region.entry(region.to_owned()).or_default() += 1;
@@ -181,8 +181,8 @@ impl WalkMetrics {
         Self {
             adapter: adapter.to_owned(),
             garments: walkers.iter().map(|walker| walker.name.clone()).collect(),
-            particle_count: walkers.iter().map(|walker| walker.model.particle_count()).sum(),
-            steps_per_frame: walkers.first().map_or(0, |walker| walker.settings.steps_per_frame),
+            particle_count: walkers.iter().map(|walker| walker.particle_count).sum(),
+            steps_per_frame: walkers.first().map_or(0, |walker| walker.steps_per_frame),
             frame_rate: settings.frame_rate,
             threshold: [threshold.warp, threshold.weft, threshold.shear],
             frame_count: frames.len(),

@@ -10,14 +10,14 @@ pub fn fixture(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures").join(name)
 }
 
-/// The folder of real patterns and bodies that lies beside the repository on some machines; prints when it does not.
-pub fn real_data() -> Option<PathBuf> {
+/// The folder of real patterns and bodies that lies beside the repository on some machines.
+///
+/// # Panics
+/// Where it does not.
+pub fn real_data() -> PathBuf {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    if !folder.is_dir() {
-        println!("skipped: {} is not there", folder.display());
-        return None;
-    }
-    Some(folder)
+    assert!(folder.is_dir(), "{} is not there", folder.display());
+    folder
 }
 
 /// A closed ellipsoid 1.6 m tall that stands on the floor.

@@ -1,6 +1,6 @@
 //! Whether the particles are still finite, how fast they are, and their energy in parts.
 
-use super::{GROUP, tree_sum};
+use super::reduction::{GROUP, tree_sum};
 use crate::Particles;
 use glam::Vec3;
 

@@ -1,6 +1,6 @@
 //! Sum of the energies of all groups.
 
-use super::{GROUP, tree_sum};
+use super::reduction::{GROUP, tree_sum};
 
 /// Total kinetic energy [J] from the partial sums of [`particle_status`](super::particle_status).
 pub fn total_energy(partials: &[f32]) -> f32 {

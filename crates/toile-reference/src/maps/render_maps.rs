@@ -1,6 +1,6 @@
 //! The maps of a body by casting a ray through every texel's centre. W §4.1 to §4.3.
 
-use super::BodyMaps;
+use super::body_maps::BodyMaps;
 use glam::{DVec2, Vec3, dvec2};
 use std::ops::RangeInclusive;
 use toile_model::MapBox;

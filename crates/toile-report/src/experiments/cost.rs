@@ -1,10 +1,11 @@
 //! What a step costs against the number of particles. D fig. 8.
 
-use crate::fixtures::hanging_sheet;
+use crate::Experiment;
 use crate::page::{Axis, Block, Cell, Plot, Section, Series, SeriesStyle, Table};
-use crate::{Experiment, Lab, LabError, Run, StepCost};
 use toile::gpu::GpuError;
 use toile::scene::{Rule, VelocityModification};
+use toile_lab::scenes::hanging_sheet;
+use toile_lab::{Lab, LabError, Run, StepCost};
 
 /// The row of the table.
 pub const EXPERIMENT: Experiment = Experiment { name: "cost", title: "Cost against size", minutes: [0.1, 1.0], run };
@@ -104,7 +105,7 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
          their own, small sheets cost more per particle, and the exponent is below 1.",
         told.join("; ")
     );
-    let mut section = Section::new(&EXPERIMENT, lead);
+    let mut section = EXPERIMENT.section(lead);
     let plot = Plot { caption, x: Axis::log("particles", ""), y: Axis::log("time of a step", "ms"), series };
     section.blocks = vec![Block::Plot(plot), Block::Table(table)];
     Ok(section)

@@ -4,13 +4,14 @@ mod life;
 
 pub use life::{Collision, Life};
 
-use crate::fixtures::{body, fabric, square};
+use crate::Experiment;
 use crate::page::{Axis, Block, Cell, Plot, Section, Series, SeriesStyle, Table};
-use crate::{Experiment, Lab, LabError};
 use glam::{DVec3, Vec3};
 use std::time::Instant;
 use toile::model::{Model, StepSettings};
 use toile::scene::{Mesh, Settings};
+use toile_lab::scenes::{body, fabric, square};
+use toile_lab::{Lab, LabError};
 use toile_reference::maps::{Surface, render_maps};
 use toile_reference::{ExactDistance, ObjectSpace, step};
 
@@ -192,7 +193,7 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
         times[1] / times[0],
         last / first
     );
-    let mut section = Section::new(&EXPERIMENT, lead);
+    let mut section = EXPERIMENT.section(lead);
     section.blocks = vec![Block::Table(table), Block::Plot(plot), Block::Table(costs)];
     Ok(section)
 }

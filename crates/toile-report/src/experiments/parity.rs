@@ -1,9 +1,10 @@
 //! The device against the reference, kernel by kernel.
 
-use crate::kernels::{Compiled, Inputs, Seeds, VARIANTS, answer, ulps};
+use crate::Experiment;
 use crate::page::{Axis, Block, Cell, Plot, Section, Series, SeriesStyle, Table};
-use crate::{Experiment, Gpu, Lab, LabError};
 use toile_kernels::{Kernel, TABLE};
+use toile_lab::kernels::{Compiled, Inputs, Seeds, VARIANTS, answer, ulps};
+use toile_lab::{Gpu, Lab, LabError};
 
 /// The row of the table.
 pub const EXPERIMENT: Experiment =
@@ -119,7 +120,7 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
         y: Axis::log("words", ""),
         series: vec![Series::new("words", SeriesStyle::Marks, bars)],
     };
-    let mut section = Section::new(&EXPERIMENT, lead);
+    let mut section = EXPERIMENT.section(lead);
     section.blocks = vec![Block::Table(table), Block::Plot(plot)];
     Ok(section)
 }

@@ -10,8 +10,9 @@ pub use maps::{Coding, MapError, Offset, Probing, Shell, map_error, velocity_err
 pub use position::{Scene, rest_error};
 pub use refinement::shape_errors;
 
+use crate::Experiment;
 use crate::page::{Block, Section};
-use crate::{Experiment, Lab, LabError};
+use toile_lab::{Lab, LabError};
 
 /// The row of the table.
 pub const EXPERIMENT: Experiment =
@@ -21,7 +22,7 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
     let lead = "What an error costs, in the four places where it comes from: limits that end before they converge, the length of the step, \
                 the spacing of the mesh, and the texels of the body's maps. A point further left is cheaper, further down more exact; a \
                 user picks the cheapest one whose error is small enough.";
-    let mut section = Section::new(&EXPERIMENT, lead);
+    let mut section = EXPERIMENT.section(lead);
     let text = |words: &str| Block::Text(words.to_owned());
     section
         .blocks

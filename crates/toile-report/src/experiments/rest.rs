@@ -1,11 +1,11 @@
 //! Sheets that come to rest, for the experiments that ask where.
 
-use crate::fixtures::{BALL_RADIUS, ball, fabric, square};
-use crate::{Lab, LabError, Run};
 use glam::DVec3;
 use toile::Colliders;
 use toile::model::{Model, StepSettings};
 use toile::scene::{Pin, Rule, Settings, Sheet, VelocityModification};
+use toile_lab::scenes::{BALL_RADIUS, ball, fabric, square};
+use toile_lab::{Lab, LabError, Run};
 
 /// Damping that brings the sheets to rest soon [1/s]: about the critical one of the slowest motion, a swing of the hammock.
 const DAMPING: f64 = 20.0;

@@ -1,9 +1,10 @@
 //! How far the rest shape moves when a setting that should not matter changes.
 
-use crate::distance::Distance;
+use crate::Experiment;
 use crate::experiments::rest::{Rest, RestScene, RestSettings, come_to_rest};
 use crate::page::{Block, Cell, Section, Table};
-use crate::{Experiment, Lab, LabError};
+use toile_lab::Distance;
+use toile_lab::{Lab, LabError};
 
 /// The row of the table.
 pub const EXPERIMENT: Experiment =
@@ -103,7 +104,7 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
          the cloth.",
         told.join("; ")
     );
-    let mut section = Section::new(&EXPERIMENT, lead);
+    let mut section = EXPERIMENT.section(lead);
     section.blocks = vec![Block::Table(table)];
     Ok(section)
 }

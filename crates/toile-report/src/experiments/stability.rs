@@ -1,11 +1,12 @@
 //! Stability atlas: the largest stable step.
 
-use crate::fixtures::hanging_sheet;
+use crate::Experiment;
 use crate::page::{Axis, Block, Cell, Plot, Section, Series, SeriesStyle, Table};
-use crate::{Experiment, Lab, LabError};
 use std::f64::consts::PI;
 use toile::model::{Model, StepSettings};
 use toile::scene::{Rule, Shape, VelocityModification};
+use toile_lab::scenes::hanging_sheet;
+use toile_lab::{Lab, LabError};
 use toile_reference::{Colliders, Reference};
 
 /// The row of the table.
@@ -212,7 +213,7 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
         "The largest step that each rule survives, beside eq. 4 of D and our bound. Eq. 4 is not safe in {papers_fail} of {count} corners, our bound in {ours_fail}: a \
          rule that is unstable by itself has no safe step."
     );
-    let mut section = Section::new(&EXPERIMENT, lead);
+    let mut section = EXPERIMENT.section(lead);
     section.blocks = vec![Block::Plot(plot), Block::Table(table)];
     Ok(section)
 }

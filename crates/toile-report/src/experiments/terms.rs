@@ -1,14 +1,16 @@
 //! What each term of the model costs, and what it buys: the same scene with it and without.
 
+mod purpose;
 mod term;
 mod trial;
 
 pub use term::{Scene, Term};
 pub use trial::{Outcome, Trial, outcome};
 
-use crate::distance::Distance;
+use crate::Experiment;
 use crate::page::{Block, Cell, Section, Table};
-use crate::{Experiment, Lab, LabError};
+use toile_lab::Distance;
+use toile_lab::{Lab, LabError};
 
 /// The row of the table.
 pub const EXPERIMENT: Experiment =
@@ -61,7 +63,7 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
     }
     let lead = "Model only what a scene needs: a term that is left out has no pass and no buffer. What each costs in a step, how far the cloth \
                 ends from where it would with it, and the one number that the term is there for.";
-    let mut section = Section::new(&EXPERIMENT, lead);
+    let mut section = EXPERIMENT.section(lead);
     section.blocks = vec![Block::Table(table)];
     Ok(section)
 }

@@ -1,6 +1,6 @@
 //! Two reports side by side: the figures of tables that both have, with their ratios, and the curves of plots that both have.
 
-use crate::page::{Axis, Block, Cell, Page, Plot, Report, Section, Series, Table};
+use crate::page::content::{Axis, Block, Cell, Page, Plot, Report, Section, Series, Table};
 
 /// Two reports side by side. Tables and plots match when captions and columns or axes do, the names of the adapters left aside;
 /// rows match by place and first cell. What only one of them has is said.

@@ -1,7 +1,9 @@
 //! A page as one self-contained HTML file, light and dark, also for print.
 
+use crate::page::content::{Block, Cell, Page, Section, Table};
+use crate::page::escaped::escaped;
+use crate::page::svg;
 use crate::page::svg::{COLOURS, PLOT_STYLE};
-use crate::page::{Block, Cell, Page, Section, Table, escaped, svg};
 
 /// How the page is set.
 const STYLE: &str = "\

@@ -1,6 +1,6 @@
 //! Reports as JSON, out and in.
 
-use crate::page::Report;
+use crate::page::content::Report;
 
 /// A report as JSON, for programs and for [`compare`](crate::page::compare).
 pub fn json(report: &Report) -> String {

@@ -1,6 +1,7 @@
 //! A page as Markdown, its plots in files beside it.
 
-use crate::page::{Block, Page, Table, svg};
+use crate::page::content::{Block, Page, Table};
+use crate::page::svg;
 
 /// A page as Markdown; gives its text, and name and text of each plot that it links to. All names begin with `stem`.
 pub fn markdown(page: &Page, stem: &str) -> (String, Vec<(String, String)>) {

@@ -1,6 +1,6 @@
 //! Numbers as the pages show them.
 
-use crate::page::Cell;
+use crate::page::content::Cell;
 
 /// A number with three significant digits: plain from a thousandth to a hundred thousand, with an exponent outside.
 pub fn three_digits(value: f64) -> String {

@@ -3,9 +3,10 @@
 //! Written by hand: plotters, the common crate, writes every colour as a fixed RGB value, and poloto, which leaves them to CSS, has
 //! no logarithmic axes.
 
+use crate::page::content::{Axis, Plot, Series, SeriesStyle};
+use crate::page::escaped::escaped;
 use crate::page::number::tick;
 use crate::page::ticks::Span;
-use crate::page::{Axis, Plot, Series, SeriesStyle, escaped};
 use std::fmt::Write;
 
 /// Size of a plot, and of the place that its axes leave for the curves [px].

@@ -1,6 +1,6 @@
 //! Round values along an axis, and where values lie on it.
 
-use crate::page::{Axis, AxisScale};
+use crate::page::content::{Axis, AxisScale};
 
 /// The part of an axis that a plot shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,7 +101,7 @@ fn linear_step(width: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::Span;
-    use crate::page::Axis;
+    use crate::page::content::Axis;
 
     fn ticks(axis: &Axis, values: &[f64]) -> Vec<f64> {
         Span::around(axis, values.iter().copied()).ticks()

@@ -1,12 +1,12 @@
 //! Bodies that are hard: already inside the cloth, or faster than it.
 
-use super::{Case, Outcome, course};
-use crate::fixtures::{ball, fabric, hanging_sheet, square};
-use crate::{Lab, LabError, Layers};
+use super::case::{Case, Outcome, course};
 use glam::{DQuat, DVec3, Vec3};
 use toile::Colliders;
 use toile::model::{Model, StepSettings};
 use toile::scene::{Mesh, RigidKey, RigidMotion, Settings, Shape, ShapeMotion, Sheet};
+use toile_lab::scenes::{ball, fabric, hanging_sheet, square};
+use toile_lab::{Lab, LabError, Layers};
 use toile_reference::ExactDistance;
 
 const N: u32 = 12;

@@ -1,9 +1,9 @@
 //! A number that is none, in one particle.
 
-use super::{Case, Outcome};
-use crate::fixtures::hanging_sheet;
-use crate::{Lab, LabError, Run};
+use super::case::{Case, Outcome};
 use toile::Colliders;
+use toile_lab::scenes::hanging_sheet;
+use toile_lab::{Lab, LabError, Run};
 
 /// The particle that is broken.
 const PARTICLE: u32 = 37;

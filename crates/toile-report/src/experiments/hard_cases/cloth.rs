@@ -1,12 +1,12 @@
 //! Cloth that is hard by itself: what it is made of, how it starts, where it is.
 
-use super::{Case, Course, Outcome, course};
-use crate::fixtures::{fabric, hanging_sheet};
-use crate::{Lab, LabError, Random, Run};
+use super::case::{Case, Course, Outcome, course};
 use glam::{DQuat, DVec2, DVec3};
 use toile::Colliders;
 use toile::model::{Model, StepSettings};
 use toile::scene::{Curve, Edge, Garment, Panel, Placement, Settings, Sheet, Threshold};
+use toile_lab::scenes::{fabric, hanging_sheet};
+use toile_lab::{Lab, LabError, Random, Run};
 
 const N: u32 = 12;
 const FRAMES: u32 = 15;

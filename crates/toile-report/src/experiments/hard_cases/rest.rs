@@ -1,11 +1,11 @@
 //! Rest that lasts: no creep and no heat.
 
-use super::{Case, Outcome};
-use crate::fixtures::{ball, fabric, hanging_sheet, square};
-use crate::{Lab, LabError};
+use super::case::{Case, Outcome};
 use glam::{DVec3, Vec3};
 use toile::model::{Model, StepSettings};
 use toile::scene::{Settings, Shape};
+use toile_lab::scenes::{ball, fabric, hanging_sheet, square};
+use toile_lab::{Lab, LabError};
 use toile_reference::{Colliders, Reference};
 
 /// Steps at rest by scale: a million in the full report.

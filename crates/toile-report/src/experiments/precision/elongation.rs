@@ -1,11 +1,11 @@
 //! Work-precision of the limits: elongation beyond the threshold against cost.
 
-use crate::fixtures::hanging_sheet;
 use crate::page::{Axis, Block, Cell, Plot, Series, SeriesStyle, Table};
-use crate::{Lab, LabError, Run};
 use std::collections::BTreeMap;
 use toile::model::{Model, StepSettings};
 use toile::scene::{Rule, VelocityModification};
+use toile_lab::scenes::hanging_sheet;
+use toile_lab::{Lab, LabError, Run};
 
 /// Excess below this is drawn at it: none cannot be shown on a logarithmic axis.
 const EXCESS_MIN: f64 = 1e-4;

@@ -1,11 +1,11 @@
 //! What the maps of a body cost in accuracy, against its exact mesh: by texel, coding, and how the thickness is added.
 
-use crate::fixtures::body;
 use crate::page::{Axis, Block, Cell, Plot, Series, SeriesStyle, Table};
-use crate::{Lab, LabError};
 use glam::{DVec3, Vec3};
 use toile::model::{MapBox, Model, StepSettings};
 use toile::scene::{Mesh, Settings};
+use toile_lab::scenes::body;
+use toile_lab::{Lab, LabError};
 use toile_reference::ExactDistance;
 use toile_reference::maps::{BodyMaps, Surface, render_maps_in};
 use toile_reference::step::sample_maps;
@@ -112,7 +112,7 @@ fn is_seen(maps: &BodyMaps, place: DVec3) -> bool {
 /// What the points of a shell meet in the maps of a body, against its exact mesh.
 pub fn map_error(body: &Mesh, exact: &ExactDistance, shell: &Shell, probing: Probing) -> MapError {
     let maps = draw(body, probing, THICKNESS);
-    let settings = Settings::new(crate::fixtures::fabric());
+    let settings = Settings::new(toile_lab::scenes::fabric());
     let step = StepSettings::new(&settings, &Model::default());
     let probes = sample_maps(&shell.points, &vec![Vec3::ZERO; shell.points.len()], &maps, &step);
     let mut depths = [Vec::new(), Vec::new()];

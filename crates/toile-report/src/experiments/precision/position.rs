@@ -1,13 +1,13 @@
 //! Position error against the converged f64 answer on the CPU, on scenes that are not chaotic.
 
-use crate::distance::Distance;
-use crate::fixtures::{fabric, square};
-use crate::network::Network;
 use crate::page::{Axis, Block, Cell, Plot, Series, SeriesStyle, Table};
-use crate::{Lab, LabError, Run};
 use glam::DVec3;
 use toile::model::{Model, StepSettings};
 use toile::scene::{Pin, Rule, Settings, Threshold, VelocityModification};
+use toile_lab::Distance;
+use toile_lab::Network;
+use toile_lab::scenes::{fabric, square};
+use toile_lab::{Lab, LabError, Run};
 
 /// Particles on a side.
 const N: u32 = 9;

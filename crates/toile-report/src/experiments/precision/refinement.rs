@@ -1,9 +1,9 @@
 //! Error of a draped shape as the mesh is refined.
 
-use crate::distance::Distance;
 use crate::experiments::rest::{RestScene, RestSettings, come_to_rest};
 use crate::page::{Axis, Block, Cell, Plot, Series, SeriesStyle, Table};
-use crate::{Lab, LabError};
+use toile_lab::Distance;
+use toile_lab::{Lab, LabError};
 
 /// How far the rest shape of each mesh is from that of the last one [m], where both have a particle; `sizes` are the particles on a side.
 pub fn shape_errors(

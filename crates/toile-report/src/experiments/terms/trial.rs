@@ -1,14 +1,14 @@
 //! A scene as it is, or with one term changed.
 
-use crate::experiments::terms::{Scene, Term};
-use crate::fixtures::{BALL_RADIUS, ball, fabric, hanging_sheet, square};
-use crate::{Lab, LabError, Run};
+use crate::experiments::terms::term::{Scene, Term};
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
 use toile::Colliders;
 use toile::gpu::{BodyMaps, Surface};
 use toile::model::{Csr, MapBox, Model, StepSettings};
 use toile::scene::{Friction, Mesh, Rule, Settings, Shape, ShapeMotion, VelocityModification, Wind};
+use toile_lab::scenes::{BALL_RADIUS, ball, fabric, hanging_sheet, square};
+use toile_lab::{Lab, LabError, Run};
 
 /// Edge length of the texels of the moving sphere [m].
 const TEXEL: f32 = 0.01;
@@ -22,6 +22,18 @@ pub struct Trial {
     pub scene: Scene,
     /// The term that is left out; wind is added.
     pub changed: Option<Term>,
+}
+
+impl Term {
+    /// The trial that has it. Wind is no part of the scene as it is; all others are.
+    pub fn with(self) -> Trial {
+        Trial { scene: self.scene(), changed: (self == Self::Wind).then_some(self) }
+    }
+
+    /// The trial that lacks it.
+    pub fn without(self) -> Trial {
+        Trial { scene: self.scene(), changed: (self != Self::Wind).then_some(self) }
+    }
 }
 
 /// What came of it.

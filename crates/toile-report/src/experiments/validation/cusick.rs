@@ -1,12 +1,12 @@
 //! Cusick's drape coefficient: how far the cloth around a disc stands out.
 
 use crate::page::{Block, Cell, Table};
-use crate::shapes::cylinder;
-use crate::{Lab, LabError, Random, settled};
 use glam::{DQuat, DVec2, DVec3, Vec3};
 use std::f64::consts::PI;
 use toile::model::{Model, StepSettings};
 use toile::scene::{Curve, Edge, Fabric, Garment, Mesh, Panel, Placement, Settings};
+use toile_lab::shapes::cylinder;
+use toile_lab::{Lab, LabError, Random, settled};
 use toile_reference::Colliders;
 use toile_reference::maps::{Surface, render_maps};
 

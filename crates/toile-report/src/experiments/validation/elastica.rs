@@ -2,10 +2,10 @@
 
 use super::laws::settings;
 use crate::page::{Axis, Block, Cell, Plot, Series, SeriesStyle, Table};
-use crate::{Lab, LabError, settled};
 use glam::{DVec2, DVec3};
 use toile::model::{Model, StepSettings};
 use toile::scene::{Pin, Rule, Sheet};
+use toile_lab::{Lab, LabError, settled};
 
 /// G = w·L³/B and the angle of the tip below the level [degrees]: the heavy elastica.
 pub const ELASTICAS: [[f64; 2]; 4] = [[1.0, 9.460], [4.0, 33.724], [8.0, 53.865], [16.0, 72.207]];

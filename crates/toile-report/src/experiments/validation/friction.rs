@@ -2,10 +2,10 @@
 
 use super::laws::settings;
 use crate::page::{Block, Cell, Table};
-use crate::{Lab, LabError, Layers, Run};
 use glam::{DQuat, DVec2, DVec3, Vec3};
 use toile::Colliders;
 use toile::scene::{Friction, Mesh, Rule, Sheet};
+use toile_lab::{Lab, LabError, Layers, Run};
 
 /// μ of the cloth on the plate: atan(0.5) is 26.6°.
 pub const FRICTION: f64 = 0.5;

@@ -2,10 +2,10 @@
 
 use super::laws::settings;
 use crate::page::{Axis, Block, Cell, Plot, Series, SeriesStyle, Table};
-use crate::{Lab, LabError, settled};
 use glam::{DVec2, DVec3};
 use toile::model::{Model, StepSettings};
 use toile::scene::{Pin, Rule, Settings, Sheet};
+use toile_lab::{Lab, LabError, settled};
 
 /// Span by length, and sag by length: roots of the catenary's equations.
 pub const CATENARIES: [[f64; 2]; 4] = [[0.5, 0.398194], [0.8, 0.265438], [0.9, 0.190709], [0.95, 0.135898]];

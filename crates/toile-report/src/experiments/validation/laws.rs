@@ -1,12 +1,12 @@
 //! Free fall and momentum of a sheet that nothing holds.
 
-use crate::fixtures::fabric;
 use crate::page::{Axis, Block, Cell, Plot, Series, SeriesStyle, Table};
-use crate::{Lab, LabError, Random, Run};
 use glam::{DVec2, DVec3};
 use toile::Colliders;
 use toile::model::{Model, StepSettings};
 use toile::scene::{Rule, Settings, Sheet, VelocityModification};
+use toile_lab::scenes::fabric;
+use toile_lab::{Lab, LabError, Random, Run};
 
 /// Frames that the sheet falls.
 const FALL_FRAMES: u32 = 15;

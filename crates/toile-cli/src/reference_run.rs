@@ -1,0 +1,191 @@
+//! A scene by the CPU reference: its garments one over the other on bodies at rest, or its sheet.
+
+use crate::engine::{Look, State};
+use crate::simulate::{meshes, shapes};
+use crate::steps::step_settings;
+use anyhow::{Context, Result, bail};
+use toile::Stage;
+use toile::model::{Dressing, DressingError, DressingStage, Merge, Model, StepSettings};
+use toile::scene::{Cloth, Mesh, Scene, Shape};
+use toile_reference::maps::{Surface, render_maps};
+use toile_reference::{Colliders, Reference};
+
+/// A scene by the CPU reference.
+pub struct ReferenceRun {
+    layers: Vec<Mesh>,
+    thickness: f32,
+    texel: f32,
+    shapes: Vec<Shape>,
+    pieces: Vec<Piece>,
+    /// Those that are dressed, and the one that is.
+    worn: Vec<Worn>,
+}
+
+/// A cloth, meshed.
+struct Piece {
+    name: String,
+    /// The garment before it is sewn, how it is merged, and the numbers of its sewing.
+    open: Option<(Model, Merge, StepSettings)>,
+    model: Model,
+    step: StepSettings,
+}
+
+struct Worn {
+    reference: Reference,
+    dressing: Option<Dressing>,
+    settings: StepSettings,
+    /// The stage that the cloth has been handed over for.
+    stage: DressingStage,
+}
+
+impl ReferenceRun {
+    /// A scene at its start.
+    pub fn new(scene: &Scene) -> Result<Self> {
+        let settings = &scene.settings;
+        let piece = |cloth: &Cloth| -> Result<Piece> {
+            match cloth {
+                Cloth::Sheet(sheet) => {
+                    let model = Model::from_sheet(sheet, settings);
+                    let step = step_settings(&sheet.name, settings, &model)?;
+                    Ok(Piece { name: sheet.name.clone(), open: None, model, step })
+                }
+                Cloth::Garment(garment) => {
+                    let open = Model::from_garment(garment, settings)?;
+                    let sewing = step_settings(&garment.name, settings, &open)?.sewing();
+                    let (model, merge) = open.sewn();
+                    let step = step_settings(&garment.name, settings, &model)?;
+                    Ok(Piece { name: garment.name.clone(), open: Some((open, merge, sewing)), model, step })
+                }
+            }
+        };
+        let pieces: Vec<Piece> = scene.cloths.iter().map(piece).collect::<Result<_>>()?;
+        if pieces.len() > 1 && pieces.iter().any(|piece| piece.open.is_none()) {
+            bail!("--backend reference: it runs one sheet, or garments; leave the other cloths of {} out", scene.name);
+        }
+        let mut run = Self {
+            layers: meshes(scene).cloned().collect(),
+            thickness: settings.fabric.thickness as f32,
+            texel: settings.texel as f32,
+            shapes: shapes(scene),
+            pieces,
+            worn: Vec::new(),
+        };
+        run.begin();
+        Ok(run)
+    }
+
+    /// Puts the next cloth where it starts.
+    fn begin(&mut self) {
+        let Some(piece) = self.pieces.get(self.worn.len()) else { return };
+        let surface = |mesh| Surface { mesh, thickness: self.thickness, velocities: None };
+        let surfaces: Vec<_> = self.layers.iter().map(surface).collect();
+        let maps = (!surfaces.is_empty()).then(|| render_maps(&surfaces, self.texel));
+        let colliders = Colliders { maps, shapes: self.shapes.clone() };
+        self.worn.push(match &piece.open {
+            None => Worn {
+                reference: Reference::new(&piece.model, &piece.step, colliders),
+                dressing: None,
+                settings: piece.step.clone(),
+                stage: DressingStage::Dressed,
+            },
+            Some((open, _, sewing)) => Worn {
+                reference: Reference::new(open, sewing, colliders),
+                dressing: Some(Dressing::new(open, sewing)),
+                settings: sewing.clone(),
+                stage: DressingStage::Sewing,
+            },
+        });
+    }
+
+    /// What the scene is doing.
+    pub fn stage(&self) -> Stage {
+        match self.worn.last().and_then(|worn| worn.dressing.as_ref()).map(Dressing::stage) {
+            None => Stage::Running,
+            Some(DressingStage::Sewing) => Stage::Sewing,
+            Some(DressingStage::Easing) => Stage::Easing,
+            Some(DressingStage::Draping) => Stage::Draping,
+            Some(DressingStage::Dressed) => Stage::Dressed,
+        }
+    }
+
+    /// Does one frame of the present cloth; steps that were done.
+    pub fn frame(&mut self) -> Result<u32> {
+        let is_last = self.worn.len() == self.pieces.len();
+        let piece = &self.pieces[self.worn.len() - 1];
+        let worn = self.worn.last_mut().expect("a scene has a cloth");
+        worn.hand_over(piece);
+        worn.reference.frame();
+        let steps = worn.settings.steps_per_frame;
+        let status = worn.reference.status();
+        if let Some(particle) = status.first_non_finite {
+            return Err(toile::Error::Diverged { step: status.step, particle, count: status.non_finite_count }.into());
+        }
+        let Some(dressing) = &mut worn.dressing else { return Ok(steps) };
+        let count = worn.reference.positions().len() as u32;
+        if let Err(error) = dressing.advance(&status, count) {
+            let open = piece.open.as_ref().filter(|_| matches!(error, DressingError::SeamsOpen { .. }));
+            let seam = open.and_then(|(open, ..)| open.widest_seam(worn.reference.positions()));
+            let seam = seam.map(|(name, _)| format!(", seam {name}")).unwrap_or_default();
+            return Err(error).with_context(|| format!("garment {}{seam}", piece.name));
+        }
+        if dressing.stage() == DressingStage::Dressed && !is_last {
+            let (positions, normals) = (worn.reference.positions().to_vec(), worn.reference.normals());
+            self.layers.push(Mesh { positions, normals, triangles: piece.model.triangles() });
+            self.begin();
+        }
+        Ok(steps)
+    }
+
+    /// The cloths that are there, from the inside out.
+    pub fn cloths(&self) -> Vec<Look<'_>> {
+        self.pieces
+            .iter()
+            .zip(&self.worn)
+            .map(|(piece, worn)| Look {
+                name: &piece.name,
+                model: match &piece.open {
+                    Some((open, ..)) if worn.stage == DressingStage::Sewing => open,
+                    _ => &piece.model,
+                },
+                settings: worn.settings.clone(),
+                status: worn.reference.status(),
+            })
+            .collect()
+    }
+
+    /// How the garments were dressed, in their order.
+    pub fn dressings(&self) -> Vec<Dressing> {
+        self.worn.iter().filter_map(|worn| worn.dressing.clone()).collect()
+    }
+
+    /// The cloths, in their order.
+    pub fn states(&self) -> Vec<State> {
+        let state = |worn: &Worn| State {
+            positions: worn.reference.positions().to_vec(),
+            normals: worn.reference.normals(),
+            touching: worn.reference.contacts().iter().map(|contact| contact.touching).collect(),
+        };
+        self.worn.iter().map(state).collect()
+    }
+}
+
+impl Worn {
+    /// Merges seams that are closed, and ends the easing, before the next frame.
+    fn hand_over(&mut self, piece: &Piece) {
+        let Some(wanted) = self.dressing.as_ref().map(Dressing::stage) else { return };
+        if self.stage == DressingStage::Sewing && wanted != DressingStage::Sewing {
+            let (_, merge, _) = piece.open.as_ref().expect("a garment is open before it is sewn");
+            self.go_on(DressingStage::Easing, &piece.model, piece.step.easing(), merge);
+        }
+        if self.stage == DressingStage::Easing && wanted != DressingStage::Easing {
+            let same = Merge::identity(piece.model.particle_count());
+            self.go_on(DressingStage::Draping, &piece.model, piece.step.draping(), &same);
+        }
+    }
+
+    fn go_on(&mut self, stage: DressingStage, model: &Model, settings: StepSettings, merge: &Merge) {
+        self.reference = self.reference.clone().sewn(model, &settings, merge);
+        self.settings = settings;
+        self.stage = stage;
+    }
+}

@@ -1,0 +1,64 @@
+//! The fixtures, read as the program reads them.
+
+use std::path::PathBuf;
+use toile::files::{BodyOptions, read_body, read_garment, read_scene};
+use toile::model::Model;
+use toile::scene::{Body, Cloth, Fabric, Garment, Mesh, Scene, Settings, Shape};
+
+/// Names of the scenes in `fixtures/scenes`.
+pub const SCENES: [&str; 3] = ["hang", "ball", "moving-ball"];
+
+/// Names of the garments in `fixtures/garments`.
+pub const GARMENTS: [&str; 5] = ["dress", "shirt_sleeveless", "shirt_sleeves", "skirt", "trousers"];
+
+/// A path below `fixtures`.
+pub fn fixture(path: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../fixtures").join(path)
+}
+
+/// A scene by name, with some keys set.
+pub fn scene(name: &str, overrides: &[(&str, &str)]) -> Scene {
+    let overrides: Vec<_> = overrides.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
+    let file = read_scene(&fixture(&format!("scenes/{name}.toml")), &overrides);
+    file.unwrap_or_else(|error| panic!("{error}")).scene
+}
+
+/// The model of the sheet of a scene.
+///
+/// # Panics
+/// When the scene has none.
+pub fn sheet_model(scene: &Scene) -> Model {
+    let [Cloth::Sheet(sheet)] = scene.cloths.as_slice() else { panic!("{} has one sheet", scene.name) };
+    Model::from_sheet(sheet, &scene.settings)
+}
+
+/// The shapes of a scene.
+pub fn shapes(scene: &Scene) -> Vec<Shape> {
+    let shape = |body: &Body| match body {
+        Body::Shape(shape) => Some(shape.clone()),
+        Body::Mesh(_) | Body::Moving(_) => None,
+    };
+    scene.bodies.iter().filter_map(shape).collect()
+}
+
+/// A garment by name.
+pub fn garment(name: &str) -> Garment {
+    read_garment(&fixture(&format!("garments/{name}.json"))).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The built-in body in the pose that it is dressed in.
+pub fn body() -> Mesh {
+    let options = BodyOptions { clip: Some("apose_to_walk".to_owned()), ..Default::default() };
+    read_body(&fixture("bodies/walking_woman.glb"), &options).unwrap_or_else(|error| panic!("{error}")).mesh
+}
+
+/// Settings of a garment in cotton at a spacing [m], as the program dresses it.
+pub fn settings(spacing: f64) -> Settings {
+    let default = Settings::new(Fabric::preset("cotton").expect("cotton is a preset"));
+    Settings { spacing, ..default }
+}
+
+/// Settings of the sheets of `fixtures/scenes`.
+pub fn sheet_settings() -> Settings {
+    scene("hang", &[]).settings
+}

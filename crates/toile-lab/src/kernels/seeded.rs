@@ -1,0 +1,593 @@
+//! Seeded input of any size that leads into every branch of a kernel.
+
+use super::input::{Input, Posed};
+use crate::{Gpu, Layers, Random};
+use glam::{DVec3, Vec3, Vec4, dvec3, vec3};
+use toile::gpu::{GpuError, Surface};
+use toile::model::{
+    Attachment, Csr, Hold, Limit, Link, MapBox, Model, NO_CORNER, STRAND_PARTICLES_MAX, SeamPair, ShapeKind, ShapeStep,
+    StepSettings, Strand,
+};
+use toile::scene::{Displacement, Fabric, Friction, Influence, Mesh, Morphs, Polish, Pose, Settings, Skin, Wind};
+use toile_kernels::{Domain, Kernel, TABLE};
+use toile_reference::step::PolishState;
+use toile_reference::{Contact, Lag, Midpoints, Particles, Probe, frame};
+
+/// What the numbers of a step are: together these lead into every branch that the settings decide.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variant {
+    /// Coulomb friction, everything on.
+    Coulomb,
+    /// The papers' friction, and another wind.
+    Papers,
+    /// No gravity, and the shapes alone.
+    Weightless,
+}
+
+/// All of them.
+pub const VARIANTS: [Variant; 3] = [Variant::Coulomb, Variant::Papers, Variant::Weightless];
+
+/// Velocity of the air [m/s]; few digits, so that the mean of four such velocities is exact.
+const WIND: DVec3 = dvec3(1.5, 0.25, -2.0);
+
+/// Middle between two shapes that mirror each other [m]; few digits, so that a point there is as far from both.
+const MIRROR: Vec3 = vec3(-0.25, -0.5, 0.0);
+
+/// How many of each thing there are.
+struct Counts {
+    particles: u32,
+    quads: u32,
+    /// Limits or seam pairs of the colour, and of colours before and after it.
+    pairs: u32,
+    others: u32,
+    partials: u32,
+    holds: u32,
+}
+
+/// Maps that the input of the kernels looks into.
+#[derive(Debug)]
+pub struct Seeds {
+    seed: u64,
+    layers: Layers,
+    moving_layers: Layers,
+}
+
+impl Seeds {
+    /// Draws the maps. Another seed gives other numbers everywhere else.
+    ///
+    /// # Errors
+    /// [`GpuError`] when the device is lost.
+    pub fn new(gpu: &Gpu, seed: u64) -> Result<Self, GpuError> {
+        Ok(Self { seed, layers: layers(gpu)?, moving_layers: moving_layers(gpu)? })
+    }
+
+    /// Input on which `kernel` works on `items` items.
+    pub fn input(&self, kernel: Kernel, items: u32, variant: Variant) -> Input {
+        let seed = (self.seed << 40) ^ (u64::from(items) << 16) | (kernel as u64) << 4 | variant as u64;
+        let random = &mut Random::new(seed);
+        let domain = TABLE.iter().find(|row| row.kernel == kernel).expect("every kernel has a row").domain;
+        let counts = counts(domain, items);
+        let settings = step_settings(variant);
+        let contacts: Vec<Contact> = (0..counts.particles).map(|_| contact(random)).collect();
+        let particles = particles(random, &contacts);
+        let (mut span, limits, seam_pairs) = pairs(random, &particles, &counts, domain);
+        let (strands, strand_particles, strand_lengths) = strands(random, &particles, &counts, domain);
+        if domain == Domain::StrandColour {
+            span = counts.others..counts.others + items;
+        }
+        let quads = quads(random, &counts);
+        let midpoints = Midpoints {
+            positions: (0..counts.quads).map(|_| random.vector(0.6)).collect(),
+            velocities: (0..counts.quads).map(|_| random.vector(2.0)).collect(),
+        };
+        let (open, members) = open_particles(random, counts.particles);
+        let (holds, held_particles) = holds(random, &particles, counts.holds);
+        let (skin, pose, body) = body(random, if domain == Domain::Vertex { items } else { 1 });
+        let mut input = Input {
+            // Holds and strands take a whole workgroup.
+            invocations: match domain {
+                Domain::Hold | Domain::StrandColour => 64 * items,
+                Domain::Workgroup => 64,
+                _ => items,
+            },
+            shapes: shapes(),
+            after_maps: variant != Variant::Weightless,
+            lag: Lag::of(3, 8, settings.dt),
+            layers: if kernel == Kernel::SampleMovingMaps { &self.moving_layers } else { &self.layers }.clone(),
+            rate: if variant == Variant::Weightless { 0.0 } else { 120.0 },
+            open,
+            members,
+            copies: particles.clone(),
+            quad_winds: (0..counts.quads).map(|_| random.vector(0.02)).collect(),
+            forces: (0..counts.particles).map(|i| force(random, i, &contacts[i as usize])).collect(),
+            limit_impulses: limit_impulses(random, &particles, &limits, settings.dt),
+            model: Model {
+                positions: particles.positions.clone(),
+                masses: particles.masses.clone(),
+                links: links(random, counts.particles),
+                attachments: attachments(random, &particles),
+                particle_quads: particle_quads(random, &counts),
+                limits,
+                seam_pairs,
+                strands,
+                strand_particles,
+                strand_lengths,
+                holds,
+                held_particles,
+                quads,
+                ..Model::default()
+            },
+            span,
+            share: if variant == Variant::Weightless { 1.0 } else { 0.5 },
+            midpoints,
+            probes: (0..counts.particles + counts.quads).map(|_| probe(random)).collect(),
+            contacts,
+            normals: vec![Vec3::ZERO; counts.particles as usize],
+            energy_partials: (0..counts.partials).map(|_| random.between(0.0, 1e-3)).collect(),
+            polish_state: polish_state(kernel, variant),
+            sweep_workgroups: (0..counts.partials).map(|k| [1 + k % 7, 1 + k % 3, 1, 0]).collect(),
+            sweep_dispatches: vec![[9; 4]; counts.partials as usize],
+            status: Default::default(),
+            settings,
+            particles,
+            skin,
+            pose,
+            body,
+        };
+        input.copies.positions.fill(Vec3::ZERO);
+        input.copies.velocities.fill(Vec3::ZERO);
+        place_at_the_edges(random, &mut input);
+        if kernel == Kernel::LongestLimit {
+            let status = frame::limit_status(&input.particles.positions, &input.model.limits, input.settings.aim());
+            input.status.elongation_max = status.elongation_max.to_bits();
+        }
+        if kernel == Kernel::MeasureExcess {
+            // An infinite elongation would be the largest, whatever the kernel does.
+            input.particles.velocities.iter_mut().filter(|v| !v.is_finite()).for_each(|v| *v = Vec3::ZERO);
+        }
+        carry_by_the_wind(&mut input);
+        input
+    }
+}
+
+/// None to four quads of each particle, whatever their corners.
+fn particle_quads(random: &mut Random, counts: &Counts) -> Csr<u32> {
+    Csr::from_rows((0..counts.particles).map(|_| {
+        let row = if counts.quads == 0 { 0 } else { random.below(5) };
+        (0..row).map(|_| random.below(counts.quads)).collect::<Vec<_>>()
+    }))
+}
+
+/// Spheres: one alone, two that mirror each other, and two in one place that move differently; a capsule and a plane.
+fn shapes() -> Vec<ShapeStep> {
+    let sphere = ShapeStep {
+        kind: ShapeKind::Sphere,
+        centre: vec3(0.1, 0.0, -0.05),
+        radius: 0.35,
+        velocity: vec3(0.5, 0.0, 0.2),
+        spin: vec3(0.3, -1.0, 2.0),
+        axis: Vec3::ZERO,
+    };
+    let mirrored = [-1.0, 1.0].map(|side| ShapeStep {
+        centre: vec3(MIRROR.x + side * 0.125, MIRROR.y, MIRROR.z),
+        radius: 0.2,
+        velocity: Vec3::ZERO,
+        ..sphere
+    });
+    let twins = [vec3(0.3, 0.2, 0.1), vec3(0.3, 0.0, 0.1)].map(|velocity| ShapeStep {
+        centre: vec3(-0.4, 0.4, 0.3),
+        radius: 0.15,
+        velocity,
+        spin: Vec3::ZERO,
+        ..sphere
+    });
+    let capsule = ShapeStep {
+        kind: ShapeKind::Capsule,
+        centre: vec3(0.3, 0.35, 0.2),
+        radius: 0.08,
+        velocity: vec3(0.2, -0.4, 0.1),
+        spin: vec3(-2.0, 1.0, 3.0),
+        axis: vec3(0.15, 0.1, -0.2),
+    };
+    let plane = ShapeStep {
+        kind: ShapeKind::Plane,
+        centre: vec3(0.1, -0.56, -0.05),
+        radius: 0.004,
+        velocity: vec3(0.3, 0.1, -0.2),
+        spin: vec3(0.1, 0.4, -0.2),
+        axis: vec3(0.1, 1.0, -0.15).normalize(),
+    };
+    [[sphere].as_slice(), &mirrored, &twins, &[capsule, plane]].concat()
+}
+
+fn counts(domain: Domain, items: u32) -> Counts {
+    let few = items / 2 + 3;
+    let none = Counts { particles: items, quads: few, pairs: 5, others: 2, partials: items.div_ceil(64), holds: 1 };
+    match domain {
+        Domain::Particle => none,
+        Domain::Quad => Counts { particles: items + 8, quads: items, ..none },
+        Domain::Point => Counts { particles: items - items / 3, quads: items / 3, ..none },
+        Domain::Hold => Counts { particles: 4 * items + 200, holds: items, ..none },
+        // Kernels over all pairs take the length of the array; those over a colour take its span.
+        Domain::Limit | Domain::SeamPair => Counts { particles: 2 * items + 4, pairs: items, others: 0, ..none },
+        Domain::LimitColour | Domain::LimitColourShare | Domain::SeamColour => {
+            Counts { particles: 2 * items + 4, pairs: items, others: 2, ..none }
+        }
+        Domain::StrandColour => Counts { particles: 8 * items + STRAND_PARTICLES_MAX, others: 2, ..none },
+        Domain::Workgroup => Counts { partials: items, ..none },
+        Domain::Vertex => Counts { particles: 1, ..none },
+    }
+}
+
+/// Before a decision: a spring above the target in a step that may have more sweeps, in one that may not, and none.
+fn polish_state(kernel: Kernel, variant: Variant) -> PolishState {
+    let counted = PolishState { further_sweeps: 11, missed_steps: 5, ..PolishState::default() };
+    match (kernel, variant) {
+        (Kernel::GrantSweep, Variant::Coulomb) => PolishState { elongation_max: 0.2, granted: 2, ..counted },
+        (Kernel::GrantSweep, Variant::Papers) => PolishState { elongation_max: 0.2, granted: 3, ..counted },
+        (Kernel::GrantSweep, Variant::Weightless) => PolishState { granted: 2, ..counted },
+        _ => counted,
+    }
+}
+
+fn step_settings(variant: Variant) -> StepSettings {
+    let base =
+        StepSettings::new(&Settings::new(Fabric::preset("cotton").expect("cotton is a preset")), &Model::default());
+    let base = StepSettings {
+        dt: 1.0 / 700.0,
+        damping: 0.7,
+        wind: Some(Wind { velocity: WIND, drag: 1.1, lift: 0.6 }),
+        push_speed: 1.5,
+        pressing: 200.0,
+        sweeps: 1,
+        polish: Some(Polish { target: 0.1, sweeps: 3 }),
+        contact_margin: 1e-3,
+        friction: 0.8,
+        hold_rate: 10.0,
+        hold_speed: 0.5,
+        swept: true,
+        ..base
+    };
+    match variant {
+        Variant::Coulomb => StepSettings { law: Friction::Coulomb, reflection: 0.0, ..base },
+        Variant::Papers => StepSettings {
+            law: Friction::Papers { velocity_kept: 0.7, force_removed: 0.4 },
+            reflection: 0.3,
+            gravity: vec3(0.3, -9.81, 0.1),
+            wind: Some(Wind { velocity: -4.0 * WIND, drag: 0.4, lift: 1.7 }),
+            ..base
+        },
+        Variant::Weightless => StepSettings {
+            gravity: Vec3::ZERO,
+            wind: Some(Wind::new(DVec3::ZERO)),
+            law: Friction::Coulomb,
+            reflection: 0.1,
+            swept: false,
+            ..base
+        },
+    }
+}
+
+fn contact(random: &mut Random) -> Contact {
+    if random.one_in(2) {
+        return Contact::default();
+    }
+    let velocity = if random.one_in(4) { Vec3::ZERO } else { random.vector(0.5) };
+    Contact { normal: random.direction(), velocity, touching: true }
+}
+
+fn particles(random: &mut Random, contacts: &[Contact]) -> Particles {
+    let mut particles = Particles::default();
+    for (i, contact) in contacts.iter().enumerate() {
+        let mass = random.between(5e-4, 2e-3);
+        particles.positions.push(match i % 50 {
+            7 => particles.positions[i - 1],
+            _ => random.vector(0.6),
+        });
+        // Some are carried by what they touch, so that friction can hold them.
+        particles.velocities.push(match i % 5 {
+            2 => contact.velocity,
+            _ => random.vector(2.0),
+        });
+        particles.masses.push(mass);
+        particles.inverse_masses.push(if random.one_in(8) { 0.0 } else { 1.0 / mass });
+    }
+    for i in (41..contacts.len()).step_by(97) {
+        particles.positions[i].y = f32::NAN;
+    }
+    for i in (29..contacts.len()).step_by(211) {
+        particles.velocities[i].z = f32::INFINITY;
+    }
+    particles
+}
+
+fn force(random: &mut Random, i: u32, contact: &Contact) -> Vec3 {
+    // Straight onto the surface: nothing is left to rub.
+    if i % 5 == 2 && random.one_in(4) { contact.normal * -0.01 } else { random.vector(0.05) }
+}
+
+fn links(random: &mut Random, particles: u32) -> Csr<Link> {
+    Csr::from_rows((0..particles).map(|i| {
+        let count = if particles < 2 { 0 } else { random.below(9) };
+        let other = |random: &mut Random| match (i % 50, random.one_in(3)) {
+            (7, true) => i - 1,
+            _ => (i + 1 + random.below(particles - 1)) % particles,
+        };
+        let link = |random: &mut Random| Link {
+            other: other(random),
+            rest_length: random.between(0.01, 0.5),
+            stiffness: random.between(1.0, 50.0),
+        };
+        (0..count).map(|_| link(random)).collect::<Vec<_>>()
+    }))
+}
+
+/// Disjoint strands of a few particles, and one along which a workgroup has more paths to hold at once than invocations, with others
+/// before and after the span of the colour.
+fn strands(
+    random: &mut Random,
+    particles: &Particles,
+    counts: &Counts,
+    domain: Domain,
+) -> (Vec<Strand>, Vec<u32>, Vec<f32>) {
+    let (mut strands, mut line, mut lengths) = (Vec::new(), Vec::new(), Vec::new());
+    if domain != Domain::StrandColour {
+        return (strands, line, lengths);
+    }
+    let order = random.shuffled(counts.particles);
+    let mut taken = 0;
+    let count = counts.particles - STRAND_PARTICLES_MAX;
+    for k in 0..count / 8 + 2 * counts.others {
+        let inside = (counts.others..counts.others + count / 8).contains(&k);
+        let wanted = if k == counts.others { STRAND_PARTICLES_MAX } else { 2 + random.below(6) };
+        let first = if inside { taken } else { 0 };
+        taken += if inside { wanted } else { 0 };
+        let start = line.len() as u32;
+        line.extend(&order[first as usize..(first + wanted) as usize]);
+        let mut strand =
+            Strand { particles: start..start + wanted, stride: 1, lengths: lengths.len() as u32, level_count: 0 };
+        while 1 << strand.level_count < wanted {
+            let ends = line[start as usize..].iter().zip(&line[start as usize + (1 << strand.level_count)..]);
+            lengths.extend(ends.map(|(a, b): (&u32, &u32)| {
+                let distance = particles.positions[*a as usize].distance(particles.positions[*b as usize]);
+                if distance > 0.0 { distance * random.between(0.9, 1.3) } else { 0.1 }
+            }));
+            strand.level_count += 1;
+        }
+        strands.push(strand);
+    }
+    (strands, line, lengths)
+}
+
+/// Distances from other particles, a little more or less than they are.
+fn attachments(random: &mut Random, particles: &Particles) -> Csr<Attachment> {
+    let count = particles.positions.len() as u32;
+    Csr::from_rows((0..count).map(|i| {
+        let attachment = |random: &mut Random| {
+            let pin = random.below(count);
+            let distance = particles.positions[i as usize].distance(particles.positions[pin as usize]);
+            let max_length = if distance > 0.0 { distance * random.between(0.9, 1.2) } else { 0.1 };
+            Attachment { pin, max_length }
+        };
+        (0..random.below(4)).map(|_| attachment(random)).collect::<Vec<_>>()
+    }))
+}
+
+/// Disjoint pairs as limits and as seam pairs, with others before and after the span of the colour.
+fn pairs(
+    random: &mut Random,
+    particles: &Particles,
+    counts: &Counts,
+    domain: Domain,
+) -> (std::ops::Range<u32>, Vec<Limit>, Vec<SeamPair>) {
+    let order = random.shuffled(counts.particles);
+    let count = if matches!(
+        domain,
+        Domain::Limit | Domain::LimitColour | Domain::LimitColourShare | Domain::SeamPair | Domain::SeamColour
+    ) {
+        counts.pairs
+    } else {
+        0
+    };
+    let mut limits = Vec::new();
+    let mut seam_pairs = Vec::new();
+    for k in 0..if counts.particles < 2 { 0 } else { count + 2 * counts.others } {
+        let inside = (counts.others..counts.others + count).contains(&k);
+        // Those of other colours may share particles: nothing may touch them.
+        let ends = if inside {
+            [order[2 * (k - counts.others) as usize], order[2 * (k - counts.others) as usize + 1]]
+        } else {
+            [order[0], order[1]]
+        };
+        let [a, b] = ends.map(|end| particles.positions[end as usize]);
+        let distance = (b - a).length();
+        let rest_length = match k % 9 {
+            5 if distance > 0.0 => distance,
+            _ if distance > 0.0 => distance * random.between(0.7, 1.3),
+            _ => 0.1,
+        };
+        let max_length = match k % 9 {
+            // Exactly as long as it may be.
+            4 if distance > 0.0 => distance,
+            _ => 1.05 * rest_length,
+        };
+        limits.push(Limit { ends, rest_length, max_length });
+        let closing_speed = if random.one_in(3) { 1000.0 } else { random.between(0.0, 2.0) };
+        seam_pairs.push(SeamPair { ends, closing_speed, seam: 0 });
+    }
+    (counts.others..counts.others + count, limits, seam_pairs)
+}
+
+/// Nothing, or what would stop ends that are a little too fast: next to what the limit lacks it is small or large.
+fn limit_impulses(random: &mut Random, particles: &Particles, limits: &[Limit], dt: f32) -> Vec<f32> {
+    let mean_mass = particles.masses.iter().sum::<f32>() / particles.masses.len() as f32;
+    let impulse = |limit: &Limit| match random.below(3) {
+        0 => 0.0,
+        1 => mean_mass * limit.rest_length / dt * random.between(0.0, 0.1),
+        _ => mean_mass * limit.rest_length / dt * random.between(0.5, 2.0),
+    };
+    limits.iter().map(impulse).collect()
+}
+
+/// Holds of one to a few particles, and some of more than a workgroup has invocations.
+fn holds(random: &mut Random, particles: &Particles, count: u32) -> (Vec<Hold>, Vec<u32>) {
+    let order = random.shuffled(particles.positions.len() as u32);
+    let mut holds: Vec<Hold> = Vec::new();
+    for left in (0..count).rev() {
+        let first = holds.last().map_or(0, |hold| hold.particles.end);
+        let wanted = if random.one_in(40) { 20 + random.below(130) } else { 1 + random.below(3) };
+        let end = first + wanted.min(order.len() as u32 - first - left);
+        let members = &order[first as usize..end as usize];
+        let mean = members.iter().map(|i| particles.positions[*i as usize].y).sum::<f32>() / members.len() as f32;
+        holds.push(Hold { label: String::new(), particles: first..end, height: mean + random.between(-0.1, 0.1) });
+    }
+    (holds, order)
+}
+
+fn quads(random: &mut Random, counts: &Counts) -> Vec<[u32; 4]> {
+    (0..counts.quads)
+        .map(|k| {
+            let mut corner = || random.below(counts.particles);
+            let [a, b, c, d] = [corner(), corner(), corner(), corner()];
+            [a, b, c, if k % 4 == 1 { NO_CORNER } else { d }]
+        })
+        .collect()
+}
+
+fn probe(random: &mut Random) -> Probe {
+    if random.one_in(6) {
+        return Probe::default();
+    }
+    let normal = if random.one_in(60) { Vec3::splat(f32::NAN) } else { random.direction() };
+    let distance = random.between(-0.004, 0.004);
+    Probe { normal, distance, velocity: random.vector(0.5), hit: true }
+}
+
+/// Twice as many open particles as sewn ones, joined in groups of one to a few.
+fn open_particles(random: &mut Random, sewn: u32) -> (Particles, Csr<u32>) {
+    let count = 2 * sewn;
+    let nothing = vec![Contact::default(); count as usize];
+    let open = particles(random, &nothing);
+    let mut rows: Vec<Vec<u32>> = random.shuffled(count)[..sewn as usize].iter().map(|i| vec![*i]).collect();
+    let taken: Vec<u32> = rows.iter().flatten().copied().collect();
+    for i in (0..count).filter(|i| !taken.contains(i)) {
+        rows[random.below(sewn) as usize].push(i);
+    }
+    rows.iter_mut().for_each(|row| row.sort_unstable());
+    (open, Csr::from_rows(rows))
+}
+
+/// Maps in which the front and the back see different bodies.
+fn layers(gpu: &Gpu) -> Result<Layers, GpuError> {
+    let [ball, block] = bodies();
+    Layers::draw(gpu, &[(&ball, 0.005), (&block, 0.01)], 0.031)
+}
+
+/// The same bodies, on their way.
+fn moving_layers(gpu: &Gpu) -> Result<Layers, GpuError> {
+    let random = &mut Random::new(7);
+    let surfaces = bodies().map(|mesh| {
+        let velocities: Vec<Vec4> = mesh.positions.iter().map(|_| random.vector(2.0).extend(0.0)).collect();
+        let buffer = gpu.upload(bytemuck::cast_slice(&velocities), wgpu::BufferUsages::VERTEX);
+        Surface { velocities: Some(buffer), ..Surface::new(&gpu.device, &mesh) }
+    });
+    let map_box = MapBox::around([vec3(-0.47, -0.47, -0.57), vec3(0.37, 0.42, 0.42)], 0.031);
+    Layers::draw_surfaces(gpu, &[(&surfaces[0], 0.005), (&surfaces[1], 0.01)], map_box)
+}
+
+fn bodies() -> [Mesh; 2] {
+    [Mesh::sphere(vec3(-0.05, 0.0, 0.0), 0.4, 16), Mesh::cuboid(vec3(0.0, -0.45, -0.55), vec3(0.25, 0.1, -0.1))]
+}
+
+/// A body whose vertices hang on none to a few joints and are displaced by none to a few morph targets.
+fn body(random: &mut Random, vertices: u32) -> (Skin, Pose, Posed) {
+    const JOINTS: u32 = 7;
+    const TARGETS: u32 = 3;
+    let vectors =
+        |random: &mut Random, largest: f32| -> Vec<Vec3> { (0..vertices).map(|_| random.vector(largest)).collect() };
+    let mut skin = Skin {
+        positions: vectors(random, 1.0),
+        normals: (0..vertices).map(|_| random.direction()).collect(),
+        influence_offsets: vec![0],
+        ..Skin::default()
+    };
+    let mut morphs = Morphs { offsets: vec![0], ..Morphs::default() };
+    for vertex in 0..vertices {
+        // A vertex on no joint has no matrix, and so a normal without length.
+        let joints = if vertex % 40 == 9 { 0 } else { 1 + random.below(5) };
+        skin.influences
+            .extend((0..joints).map(|_| Influence { joint: random.below(JOINTS), weight: random.between(0.0, 1.0) }));
+        skin.influence_offsets.push(skin.influences.len() as u32);
+        let targets = random.below(TARGETS);
+        morphs.displacements.extend((0..targets).map(|target| Displacement {
+            target,
+            position: random.vector(0.1),
+            normal: random.vector(0.2),
+        }));
+        morphs.offsets.push(morphs.displacements.len() as u32);
+    }
+    skin.morphs = Some(morphs);
+    let mut row = || random.vector(1.0).extend(0.3);
+    let joints = (0..JOINTS).map(|_| [row(), row(), row()]).collect();
+    let pose = Pose { joints, morph_weights: (0..TARGETS).map(|_| random.between(-0.5, 1.0)).collect() };
+    let body = Posed {
+        morphed_positions: vectors(random, 1.0),
+        morphed_normals: (0..vertices).map(|_| random.direction()).collect(),
+        last_positions: vectors(random, 1.0),
+        positions: vectors(random, 1.0),
+        normals: vec![Vec3::ZERO; vertices as usize],
+        velocities: vec![Vec3::ZERO; vertices as usize],
+    };
+    (skin, pose, body)
+}
+
+/// Moves some points to the borders of the maps, the centres and the surfaces of the shapes, and to where there is no number.
+fn place_at_the_edges(random: &mut Random, input: &mut Input) {
+    let map_box = input.layers.read.map_box;
+    let count = input.particle_count();
+    for i in 0..count + input.midpoints.positions.len() {
+        let (position, velocity) = if i < count {
+            (&mut input.particles.positions[i], &mut input.particles.velocities[i])
+        } else {
+            (&mut input.midpoints.positions[i - count], &mut input.midpoints.velocities[i - count])
+        };
+        match i % 31 {
+            5 => {
+                // On a border between two texels, also the outermost ones.
+                *velocity = Vec3::ZERO;
+                position.x = map_box.origin_x + map_box.texel * random.below(map_box.columns + 1) as f32;
+                position.y = map_box.origin_y - map_box.texel * random.below(map_box.rows + 1) as f32;
+            }
+            13 => *position = input.shapes[0].centre,
+            // Through the bodies within one step.
+            20 | 21 => *velocity = (vec3(0.0, 0.1, 0.0) - *position) * (random.between(0.3, 2.0) / input.settings.dt),
+            // Just at a shape.
+            17 | 24 => {
+                let shape = input.shapes[random.below(input.shapes.len() as u32) as usize];
+                let core = shape.centre + shape.axis * random.between(-1.2, 1.2).clamp(-1.0, 1.0);
+                *position = core + random.direction() * (shape.radius + random.between(-0.01, 0.01));
+            }
+            // Through the ends and the sides of one within the step.
+            27 | 28 => {
+                let shape = input.shapes[random.below(input.shapes.len() as u32) as usize];
+                let core = |random: &mut Random| shape.centre + shape.axis * random.between(-1.3, 1.3);
+                *position = core(random) + random.direction() * (shape.radius * random.between(1.1, 2.5));
+                *velocity =
+                    shape.velocity + (core(random) - *position) * (random.between(0.5, 2.0) / input.settings.dt);
+            }
+            // As near to two of them.
+            9 => *position = vec3(MIRROR.x, MIRROR.y, MIRROR.z + random.between(-0.1, 0.1)),
+            _ => {}
+        }
+    }
+}
+
+/// Lets some quads fly with the air.
+fn carry_by_the_wind(input: &mut Input) {
+    let velocity = input.settings.wind.expect("the input has wind").velocity.as_vec3();
+    for corners in input.model.quads.iter().skip(2).step_by(40) {
+        for corner in corners.iter().filter(|corner| **corner != NO_CORNER) {
+            input.particles.velocities[*corner as usize] = velocity;
+        }
+    }
+}

@@ -1,0 +1,26 @@
+//! Harness and measures that tests, benches and the report share.
+//!
+//! A [`Lab`] gives an experiment its device, [`Run`] drives a cloth on it, and [`kernels`] runs each kernel alone beside its reference.
+//! What is measured stays with those who measure.
+
+mod distance;
+pub mod fixtures;
+mod gpu;
+pub mod kernels;
+mod lab;
+mod layers;
+mod network;
+mod random;
+mod run;
+pub mod scenes;
+mod settle;
+pub mod shapes;
+
+pub use distance::Distance;
+pub use gpu::{Gpu, INSTALL_HINT};
+pub use lab::{Lab, LabError, Progress, Scale};
+pub use layers::{Layers, read_maps};
+pub use network::Network;
+pub use random::Random;
+pub use run::{Run, StepCost};
+pub use settle::settled;

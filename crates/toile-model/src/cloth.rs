@@ -1,0 +1,16 @@
+//! The arrays of a cloth, open and sewn: springs, limits, colours, seams.
+
+mod assemble;
+mod bending;
+mod colouring;
+pub(crate) mod digest;
+mod lines;
+pub(crate) mod long_limits;
+pub(crate) mod model;
+mod open;
+mod seams;
+mod sewn;
+mod soften;
+mod springs;
+
+pub(crate) use assemble::aim;

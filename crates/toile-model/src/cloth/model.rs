@@ -1,0 +1,220 @@
+//! The immutable arrays that a solver reads.
+
+use crate::{Csr, NO_CORNER};
+use glam::{Vec2, Vec3};
+use std::ops::Range;
+use toile_scene::{Rule, Threshold};
+
+/// One piece of cloth as the solvers read it. Immutable.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Model {
+    /// Positions at time 0 [m], shape [particle_count].
+    pub positions: Vec<Vec3>,
+    /// Masses [kg], positive also for pinned particles, shape [particle_count].
+    pub masses: Vec<f32>,
+    /// Inverse masses [1/kg], 0 for pinned particles, shape [particle_count].
+    pub inverse_masses: Vec<f32>,
+    /// Flat position in the panel [m], shape [particle_count]. A merged particle keeps that of its first member.
+    pub flat: Vec<Vec2>,
+    /// All springs in a fixed order, shape [spring_count].
+    pub springs: Vec<Spring>,
+    /// For each particle its springs, in the order of `springs`; shape [particle_count] rows.
+    pub links: Csr<Link>,
+    /// Limits sorted by colour, shape [limit_count].
+    pub limits: Vec<Limit>,
+    /// Limits of each colour: no two of them share a particle.
+    pub limit_colours: Vec<Range<u32>>,
+    /// Lines of cloth with limits along them, sorted by colour. Empty unless the rule is [`Rule::Hierarchical`].
+    pub strands: Vec<Strand>,
+    /// Strands of each colour: no two of them share a particle.
+    pub strand_colours: Vec<Range<u32>>,
+    /// The particles of all strands, one strand after the other.
+    pub strand_particles: Vec<u32>,
+    /// Maximum lengths [m] of the limits of all strands, strand by strand, level by level; as [`Limit::max_length`].
+    pub strand_lengths: Vec<f32>,
+    /// For each particle the pins that hold it; shape [particle_count] rows. Empty rows unless the rule is [`Rule::Hierarchical`].
+    pub attachments: Csr<Attachment>,
+    /// Particles that a seam pulls together, sorted by colour. Empty once merged.
+    pub seam_pairs: Vec<SeamPair>,
+    /// Seam pairs of each colour: no two of them share a particle.
+    pub seam_colours: Vec<Range<u32>>,
+    /// Labelled edges, held at their height while the garment is sewn and eases.
+    pub holds: Vec<Hold>,
+    /// The particles of all holds, one hold after the other; each particle at most once.
+    pub held_particles: Vec<u32>,
+    /// Corners of each quad, counter-clockwise seen from outside the cloth; a triangle has [`NO_CORNER`] as the fourth. Shape [quad_count].
+    pub quads: Vec<[u32; 4]>,
+    /// For each particle the quads it is a corner of, ascending; shape [particle_count] rows.
+    pub particle_quads: Csr<u32>,
+    /// Stiffness of one structural, shear and bend spring [N/m], in this order.
+    pub stiffness: [f32; 3],
+    /// Bending rigidity by areal density [m⁴/s²]; 0 leaves bending to the stiffness of the bend springs.
+    pub bending: f64,
+    /// Smallest part of the bending rigidity that the step carries anywhere [1]; 1 is all of it.
+    pub bending_carried: f64,
+    /// Elongation that the fabric allows, by direction.
+    pub threshold: Threshold,
+    /// The rule that the limits are made for.
+    pub rule: Rule,
+    /// Longest step [s] that the links are made soft enough for; `None` when they keep the stiffness of the springs.
+    pub step_wanted: Option<f64>,
+    /// What each panel became.
+    pub panels: Vec<PanelMesh>,
+    /// Names of the seams as "panel.edge to panel.edge", for messages; indexed by [`SeamPair::seam`].
+    pub seam_names: Vec<String>,
+}
+
+/// What a spring resists.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum SpringKind {
+    /// Stretching along warp or weft: sides of the cells.
+    Structural,
+    /// Shearing: diagonals of the cells.
+    Shear,
+    /// Bending: spans two cells (the papers' flexion).
+    Bend,
+    /// An open seam: rest length zero.
+    Seam,
+}
+
+/// A spring between two particles. D §3, eq. 2.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spring {
+    /// The two particles, the lower index first.
+    pub ends: [u32; 2],
+    /// Rest length [m], from the flat panel.
+    pub rest_length: f32,
+    /// Stiffness [N/m].
+    pub stiffness: f32,
+    /// Elongation that the fabric allows along it [1]; 0 of a seam spring, which has no limit.
+    pub threshold: f32,
+    /// What it resists.
+    pub kind: SpringKind,
+}
+
+/// A spring as one of its ends sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Link {
+    /// The particle at the other end.
+    pub other: u32,
+    /// Rest length [m]. With a bending rigidity that of a bend spring is longer than in the flat panel and that of a structural spring
+    /// shorter, also below 0, so that they push and pull in the flat cloth.
+    pub rest_length: f32,
+    /// Stiffness [N/m].
+    pub stiffness: f32,
+}
+
+/// A unilateral maximum length: shortening is free.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limit {
+    /// The two particles.
+    pub ends: [u32; 2],
+    /// Rest length of the spring [m].
+    pub rest_length: f32,
+    /// Maximum length [m]: (1 + threshold)·rest length, by the threshold along it; under [`Rule::Hierarchical`] a little less, so that what the sweeps leave
+    /// of the excess stays under the threshold.
+    pub max_length: f32,
+}
+
+/// A line of cloth that goes straight on, with limits over 1, 2, 4… steps from particle to particle: its levels, from 0 on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Strand {
+    /// Where its particles stand in [`Model::strand_particles`]: at most 512, none twice.
+    pub particles: Range<u32>,
+    /// Edges of the cloth in a step: 1, or where a line is too long for one strand 2, 4, 8… in the strands of its longest limits.
+    pub stride: u32,
+    /// Where its lengths begin in [`Model::strand_lengths`]; see [`Strand::lengths_from`].
+    pub lengths: u32,
+    /// Levels; at least 1. Limits of the highest span 2^(level_count − 1) steps.
+    pub level_count: u32,
+}
+
+/// A maximum distance of a particle from a pin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Attachment {
+    /// The pinned particle.
+    pub pin: u32,
+    /// Maximum distance [m]: as [`Limit::max_length`], of the distance inside the flat panel.
+    pub max_length: f32,
+}
+
+/// Two particles that a seam pulls together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SeamPair {
+    /// The two particles.
+    pub ends: [u32; 2],
+    /// Speed at which the pair closes [m/s].
+    pub closing_speed: f32,
+    /// Index into [`Model::seam_names`].
+    pub seam: u32,
+}
+
+/// The edges of one label, held at their mean height.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hold {
+    /// The label.
+    pub label: String,
+    /// Where its particles stand in [`Model::held_particles`]; never empty.
+    pub particles: Range<u32>,
+    /// Mean height y at time 0 [m].
+    pub height: f32,
+}
+
+/// What a panel became.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PanelMesh {
+    /// Name of the panel or sheet.
+    pub name: String,
+    /// Its particles. Empty once merged: particles of different panels are then one.
+    pub particles: Range<u32>,
+    /// Its quads.
+    pub quads: Range<u32>,
+    /// Smallest angle in any of its flat quads and triangles [degrees].
+    pub worst_angle: f32,
+}
+
+/// How the particles of an open model become those of a sewn one.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Merge {
+    /// For each particle of the sewn model its members in the open model, ascending.
+    pub members: Csr<u32>,
+}
+
+impl Model {
+    /// Number of particles.
+    pub fn particle_count(&self) -> u32 {
+        self.positions.len() as u32
+    }
+
+    /// Number of springs of all kinds.
+    pub fn spring_count(&self) -> u32 {
+        self.springs.len() as u32
+    }
+
+    /// Number of quads and triangles.
+    pub fn quad_count(&self) -> u32 {
+        self.quads.len() as u32
+    }
+
+    /// Number of colours of the limits.
+    pub fn colour_count(&self) -> u32 {
+        self.limit_colours.len() as u32
+    }
+
+    /// Number of seam pairs.
+    pub fn seam_pair_count(&self) -> u32 {
+        self.seam_pairs.len() as u32
+    }
+
+    /// Vertex indices of the triangles to draw, counter-clockwise seen from outside; a quad gives two.
+    pub fn triangles(&self) -> Vec<[u32; 3]> {
+        let mut triangles = Vec::with_capacity(2 * self.quads.len());
+        for &[a, b, c, d] in &self.quads {
+            triangles.push([a, b, c]);
+            if d != NO_CORNER {
+                triangles.push([a, c, d]);
+            }
+        }
+        triangles
+    }
+}

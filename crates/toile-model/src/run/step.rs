@@ -1,0 +1,164 @@
+//! The numbers of one step, and the largest step that is stable.
+
+use crate::Model;
+use crate::cloth::aim;
+use glam::Vec3;
+use toile_scene::{Friction, Polish, Rule, Settings, VelocityModification, Wind};
+
+/// Passes over single springs after the strands. Strands of four directions disagree by what single springs are left with, most where cloth
+/// whips or slaps on a body and longer limits are slack.
+const LIMIT_PASSES: u32 = 2;
+
+/// Passes over single springs after all sweeps: in one, springs of the first colours get back part of what they lost from those that come
+/// after them. There are as many again for each time that the longest limits double [`CELLS_OF_SMALL_CLOTH`].
+const GUARD_PASSES: u32 = 2;
+
+/// Cells along the longest limits of cloth that the sweeps of its rule and [`GUARD_PASSES`] hold. Larger cloth has a sweep more: where it whips
+/// or slaps on a body it becomes taut within a step over several cells.
+const CELLS_OF_SMALL_CLOTH: u32 = 32;
+
+/// Twenty times the weight of the cloth: of cotton about 30 Pa, as if it were drawn with 3 N/m around a waist [m/s²].
+const PRESSING: f32 = 200.0;
+
+/// The numbers of one step, the same for every particle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StepSettings {
+    /// Time step [s].
+    pub dt: f32,
+    /// Steps from one frame to the next.
+    pub steps_per_frame: u32,
+    /// Gravity [m/s²].
+    pub gravity: Vec3,
+    /// The air around the cloth.
+    pub wind: Option<Wind>,
+    /// Viscous damping rate [1/s].
+    pub damping: f32,
+    /// Distance kept from bodies [m].
+    pub thickness: f32,
+    /// Largest speed at which a particle inside a body is moved out [m/s]; it changes positions, not velocities.
+    pub push_speed: f32,
+    /// A particle nearer to the surface than this is in contact [m].
+    pub contact_margin: f32,
+    /// Part of the approach velocity that a collision gives back [1]: C_refl of W eq. 15.
+    pub reflection: f32,
+    /// Friction law.
+    pub law: Friction,
+    /// Coulomb coefficient μ [1].
+    pub friction: f32,
+    /// Largest normal acceleration of a contact that friction counts [m/s²]. Where cloth is too tight to hold its limits, these press it
+    /// on the body without bound, as no yarn could; friction by that would hold every particle where it is, however stretched.
+    pub pressing: f32,
+    /// Speed of a held edge towards its height, per metre from it [1/s].
+    pub hold_rate: f32,
+    /// Largest speed of a held edge towards its height [m/s].
+    pub hold_speed: f32,
+    /// Rule of the velocity modification.
+    pub rule: Rule,
+    /// Sweeps over all limits per step.
+    pub sweeps: u32,
+    /// How often the guard goes over the limits of single springs at the end of a step.
+    pub guard_passes: u32,
+    /// Further sweeps in steps that need them.
+    pub polish: Option<Polish>,
+    /// Whether the whole way of a point is tested against the bodies, not its end alone.
+    pub swept: bool,
+}
+
+impl StepSettings {
+    /// The step of a model under the settings of its scene: the largest stable one times the safety factor, cut so that a
+    /// whole number of steps makes a frame.
+    pub fn new(settings: &Settings, model: &Model) -> Self {
+        let frame = 1.0 / settings.frame_rate;
+        let bound = model.step_wanted.unwrap_or(f64::INFINITY).min(settings.safety * stable_step(model));
+        let steps_per_frame = (frame / bound - 1e-3).ceil().max(1.0);
+        let VelocityModification { rule, sweeps, polish } = settings.velocity_modification;
+        let doublings = doublings(model);
+        Self {
+            dt: (frame / steps_per_frame) as f32,
+            steps_per_frame: steps_per_frame as u32,
+            gravity: settings.gravity.as_vec3(),
+            wind: settings.wind,
+            damping: settings.fabric.damping as f32,
+            thickness: settings.fabric.thickness as f32,
+            push_speed: 0.1,
+            contact_margin: 1e-4,
+            reflection: settings.reflection as f32,
+            law: settings.friction,
+            friction: settings.fabric.friction as f32,
+            pressing: PRESSING,
+            hold_rate: 10.0,
+            hold_speed: 0.5,
+            rule,
+            sweeps: sweeps.unwrap_or(rule.sweeps() + doublings.min(1)),
+            guard_passes: GUARD_PASSES * (1 + doublings),
+            polish,
+            swept: settings.swept,
+        }
+    }
+}
+
+impl StepSettings {
+    /// Most steps of a frame. The default rule has 16 at 60 frames per second and 960 at one; a rule that leaves the tension to stiff springs
+    /// has hundreds on fine cloth. More of them are a slip in a scene, which must not ask for years.
+    pub const STEPS_PER_FRAME_MAX: u32 = 10_000;
+
+    /// The same frame in so many more steps that it has a multiple of `parts`.
+    pub fn in_parts(&self, parts: u32) -> Self {
+        let steps_per_frame = self.steps_per_frame.next_multiple_of(parts);
+        if steps_per_frame == self.steps_per_frame {
+            return self.clone();
+        }
+        let frame = f64::from(self.dt) * f64::from(self.steps_per_frame);
+        Self { dt: (frame / f64::from(steps_per_frame)) as f32, steps_per_frame, ..self.clone() }
+    }
+
+    /// The part of [`Self::push_speed`] that each of the sweeps has [m/s]; further sweeps have as much each.
+    pub fn push_speed_per_sweep(&self) -> f32 {
+        self.push_speed / self.sweeps.max(1) as f32
+    }
+
+    /// Part of the threshold that the limits of the rule hold [1]; the rest is for what the sweeps leave.
+    pub fn aim(&self) -> f32 {
+        aim(self.rule)
+    }
+
+    /// How often a sweep goes over the limits of single springs.
+    pub fn limit_passes(&self) -> u32 {
+        if self.rule == Rule::Hierarchical { LIMIT_PASSES } else { 1 }
+    }
+
+    /// Part of an excess that a pass of the guard removes from the springs of a colour [1]. All of it, but in the last pass every second colour
+    /// leaves half: along a taut line it takes the rest over from the colour before, which would get all of it back.
+    pub fn guard_share(&self, pass: u32, colour: u32) -> f32 {
+        if pass + 1 == self.guard_passes && colour % 2 == 1 { 0.5 } else { 1.0 }
+    }
+
+    /// How much the guard shortens a spring at once [m]: the thickness in all its passes, for that is what it has to give way.
+    pub fn guard_way(&self) -> f32 {
+        self.thickness / self.guard_passes as f32
+    }
+
+    /// The change of normal speed by one sweep that friction counts at most [m/s]: what [`Self::pressing`] gives in a step, in equal parts;
+    /// further sweeps count as much each.
+    pub fn pressing_speed_per_sweep(&self) -> f32 {
+        self.pressing * self.dt / self.sweeps.max(1) as f32
+    }
+}
+
+/// How often the longest limits of a model double [`CELLS_OF_SMALL_CLOTH`].
+fn doublings(model: &Model) -> u32 {
+    let cells = model.strands.iter().map(|strand| strand.stride << (strand.level_count - 1)).max();
+    (cells.unwrap_or(0) / CELLS_OF_SMALL_CLOTH).max(1).ilog2()
+}
+
+/// Largest step [s] at which symplectic Euler is surely stable on this model's springs: 2/ω with Gershgorin's bound
+/// ω² ≤ 2·Σk·w over the springs of a particle. Infinite without springs.
+fn stable_step(model: &Model) -> f64 {
+    let squared_rate = (0..model.positions.len())
+        .map(|i| {
+            let stiffness: f64 = model.links.row(i).iter().map(|l| f64::from(l.stiffness)).sum();
+            2.0 * stiffness * f64::from(model.inverse_masses[i])
+        })
+        .fold(0.0, f64::max);
+    2.0 / squared_rate.sqrt()
+}

@@ -1,0 +1,122 @@
+//! Where the maps of the bodies stand, at any time.
+
+use crate::Error;
+use glam::Vec3;
+use toile_model::MapBox;
+use toile_scene::MovingMesh;
+
+/// Bounds of a body are looked up in a table of so many per second [1/s].
+const BOUNDS_RATE: f64 = 60.0;
+/// What the table adds on every side [m]: a body goes no farther between two of its times, and inner garments hang out of it.
+const BOUNDS_MARGIN: f32 = 0.03;
+/// What is added around a body for the garments that lie under another one [m].
+const GARMENT_MARGIN: f32 = 0.25;
+
+/// Where the maps of moving surfaces stand: as large as they ever need, around where they are.
+#[derive(Clone, Debug)]
+pub(crate) struct Boxes {
+    bounds: Vec<[Vec3; 2]>,
+    /// Length of a round [s], for a motion that repeats.
+    round: Option<f64>,
+    margin: f32,
+    texel: f32,
+    size: [u32; 2],
+}
+
+impl Boxes {
+    /// The boxes around bodies that move, and around boxes that stand still. `texel` is the edge length of a texel [m] and `thickness`
+    /// that of the cloth on the bodies [m]; `layered` when garments show in the maps too.
+    ///
+    /// # Errors
+    /// [`Error::Body`] when a position of a body is not finite at some time.
+    pub(crate) fn new(
+        moving: &[MovingMesh],
+        still: &[[Vec3; 2]],
+        texel: f32,
+        thickness: f32,
+        layered: bool,
+    ) -> Result<Self, Error> {
+        let duration = moving.iter().map(MovingMesh::duration).fold(0.0, f64::max);
+        let count = (duration * BOUNDS_RATE).ceil() as u32 + 1;
+        let bounds_at = |index| {
+            let time = f64::from(index) / BOUNDS_RATE;
+            let mut boxes = still.to_vec();
+            for body in moving {
+                let posed = body.at(time);
+                // Bounds alone do not tell: they pass over what is no number.
+                if !posed.positions.iter().all(|position| position.is_finite()) {
+                    return Err(Error::Body { time });
+                }
+                boxes.push(posed.bounds().unwrap_or_default());
+            }
+            Ok(boxes.into_iter().reduce(around_both).unwrap_or_default())
+        };
+        let bounds = (0..count).map(bounds_at).collect::<Result<_, _>>()?;
+        let margin = thickness + BOUNDS_MARGIN + if layered { GARMENT_MARGIN } else { 0.0 };
+        let round = match moving {
+            [only] if only.is_closed() => Some(only.duration()),
+            _ => None,
+        };
+        let mut boxes = Self { bounds, round, margin, texel, size: [0; 2] };
+        let sizes = (0..count as usize).map(|index| {
+            let [low, high] = boxes.between(index);
+            high - low
+        });
+        let largest = sizes.fold(Vec3::ZERO, Vec3::max);
+        boxes.size = MapBox::size_for(largest, texel);
+        Ok(boxes)
+    }
+
+    /// The box at a time [s].
+    pub(crate) fn at(&self, time: f64) -> MapBox {
+        let time = self.round.map_or(time, |round| time.rem_euclid(round)).max(0.0);
+        // A time of the table stays one whatever the rounding: boxes of the same pose are then the same.
+        MapBox::moving(self.between((time * BOUNDS_RATE + 1e-4) as usize), self.texel, self.size)
+    }
+
+    /// The box around the bodies from one time of the table to the next.
+    fn between(&self, index: usize) -> [Vec3; 2] {
+        let last = self.bounds.len() - 1;
+        let [low, high] = around_both(self.bounds[index.min(last)], self.bounds[(index + 1).min(last)]);
+        [low - self.margin, high + self.margin]
+    }
+}
+
+/// The box around two boxes, each its smallest and largest corner [m].
+pub(crate) fn around_both(a: [Vec3; 2], b: [Vec3; 2]) -> [Vec3; 2] {
+    [a[0].min(b[0]), a[1].max(b[1])]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{DQuat, DVec3};
+    use toile_scene::{Mesh, RigidKey};
+
+    fn ball(keys: &[(f64, f64)]) -> MovingMesh {
+        let key = |&(time, x)| RigidKey { time, translation: DVec3::X * x, rotation: DQuat::IDENTITY };
+        MovingMesh::rigid(Mesh::sphere(Vec3::ZERO, 0.25, 8), keys.iter().map(key).collect())
+    }
+
+    #[test]
+    fn a_body_that_leaves_every_place_is_refused() {
+        let lost = ball(&[(0.0, 0.0), (0.5, 0.1), (1.0, 1e39)]);
+        let error = Boxes::new(&[lost], &[], 0.01, 0.0, false).expect_err("it leaves");
+        assert!(error.to_string().starts_with("the body has no finite position at 0."), "{error}");
+    }
+
+    #[test]
+    fn the_maps_hold_everything_at_every_time() {
+        let bodies = [ball(&[(0.0, 0.0), (1.0, 2.0)]), ball(&[(0.0, -1.0), (0.5, -1.0)])];
+        let shelf = [Vec3::new(-0.1, 1.0, 0.0), Vec3::new(0.1, 1.2, 0.1)];
+        let boxes = Boxes::new(&bodies, &[shelf], 0.01, 0.002, true).expect("all is finite");
+        for time in [0.0, 0.3, 1.0, 7.0] {
+            let map_box = boxes.at(time);
+            let right = map_box.origin_x + map_box.texel * map_box.columns as f32;
+            let bottom = map_box.origin_y - map_box.texel * map_box.rows as f32;
+            let x = 2.0 * time.min(1.0) as f32;
+            assert!(map_box.origin_x < -1.25 && right > x + 0.25, "{time} s: {map_box:?}");
+            assert!(map_box.origin_y > 1.2 && bottom < -0.25 && map_box.z_front > 0.25, "{time} s: {map_box:?}");
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! A garment on its way onto a body: sewn, eased and draped, each until measured criteria hold.
+
+use crate::piece::Piece;
+use crate::{Cloth, Colliders, Error};
+use toile_model::{Dressing, DressingStage, Merge, Status};
+
+/// A garment on its way onto bodies that stand still.
+#[derive(Debug)]
+pub(crate) struct Fitting {
+    pub(crate) cloth: Cloth,
+    pub(crate) dressing: Dressing,
+    /// The step of the last status that was heard.
+    pub(crate) heard: Option<u64>,
+    /// The stage that the cloth has been handed over for.
+    pub(crate) stage: DressingStage,
+}
+
+impl Fitting {
+    /// A garment whose panels stand where they were placed. Pipelines are those of `alike`, as far as it has them.
+    ///
+    /// # Errors
+    /// [`Error::Gpu`] when the garment does not fit the device.
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        piece: &Piece,
+        colliders: Colliders,
+        alike: Option<&Cloth>,
+    ) -> Result<Self, Error> {
+        let open = piece.open.as_ref().expect("a garment is open before it is sewn");
+        let cloth = match alike {
+            None => Cloth::new(device, &open.model, &open.sewing, colliders)?,
+            Some(known) => known.new_alike(device, &open.model, &open.sewing, colliders)?,
+        };
+        let dressing = Dressing::new(&open.model, &open.sewing);
+        Ok(Self { cloth, dressing, heard: None, stage: DressingStage::Sewing })
+    }
+
+    /// Hears what the device has reported since the last time.
+    ///
+    /// # Errors
+    /// [`Error::Diverged`], and [`Error::Dressing`] when the criteria of a stage can no longer be met.
+    pub(crate) fn hear(&mut self, piece: &Piece) -> Result<(), Error> {
+        // What the cloth of the stage before reports says nothing about the next.
+        if self.dressing.stage() != self.stage {
+            return Ok(());
+        }
+        let Some(status) =
+            self.cloth.status()?.filter(|status: &Status| self.heard.is_none_or(|heard| status.step > heard))
+        else {
+            return Ok(());
+        };
+        self.heard = Some(status.step);
+        let count = self.cloth.frame().particle_count;
+        self.dressing
+            .advance(&status, count)
+            .map_err(|source| Error::Dressing { garment: piece.name.clone(), source })?;
+        Ok(())
+    }
+
+    /// Records the handovers that are due, then a frame.
+    ///
+    /// # Errors
+    /// [`Error::Gpu`] when the sewn garment does not fit the device.
+    pub(crate) fn record(
+        &mut self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        piece: &Piece,
+    ) -> Result<(), Error> {
+        let open = piece.open.as_ref().expect("a garment is open before it is sewn");
+        let wanted = self.dressing.stage();
+        if self.stage == DressingStage::Sewing && wanted != DressingStage::Sewing {
+            self.hand_over(device, encoder, piece, &open.merge, DressingStage::Easing)?;
+        }
+        if self.stage == DressingStage::Easing && wanted != DressingStage::Easing {
+            let same = Merge::identity(piece.model.particle_count());
+            self.hand_over(device, encoder, piece, &same, DressingStage::Draping)?;
+        }
+        self.cloth.record(device, encoder);
+        Ok(())
+    }
+
+    fn hand_over(
+        &mut self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        piece: &Piece,
+        merge: &Merge,
+        stage: DressingStage,
+    ) -> Result<(), Error> {
+        self.cloth = self.cloth.sewn(device, encoder, &piece.model, merge, &piece.settings_of(stage))?;
+        self.stage = stage;
+        self.heard = Some(self.cloth.step());
+        Ok(())
+    }
+}

@@ -1,0 +1,593 @@
+//! A scene that runs: its garments are sewn, eased and draped, then everything goes on together.
+
+use crate::boxes::{Boxes, around_both};
+use crate::clock::{Advance, Clock};
+use crate::fitting::Fitting;
+use crate::outfit::{Bodies, Outfit, Part, Recorder, maps_of_round, maps_per_frame};
+use crate::piece::Piece;
+use crate::{Cloth, Colliders, Error, pose};
+use glam::{Vec3, Vec4};
+use std::sync::Arc;
+use toile_gpu::{Arrival, BodyMaps, Surface};
+use toile_model::{Dressing, DressingStage, MapBox, Model, StepSettings};
+use toile_scene::{Body, Mesh, MovingMesh, Scene, Settings};
+
+/// Time that garments have to hang quietly once the body has gone over to the start of its motion [s].
+const WAITING_SECONDS: f64 = 0.5;
+
+/// What a simulation is doing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Stage {
+    /// The seams of a garment are being closed, without gravity.
+    Sewing,
+    /// A garment is sewn and falls without friction to where it stretches least, its labelled edges still held.
+    Easing,
+    /// A garment comes to rest.
+    Draping,
+    /// Every garment is at rest. The next advance goes on to what comes then.
+    Dressed,
+    /// The body goes over from the pose that its garments were sewn in to the start of its motion, and they along with it.
+    Posing,
+    /// Everything goes on together: bodies, their maps, garments and sheets.
+    Running,
+}
+
+/// One cloth of a simulation.
+#[derive(Clone, Copy, Debug)]
+pub struct Worn<'a> {
+    /// Name of the garment or sheet.
+    pub name: &'a str,
+    /// What is simulated: the open model of a garment that is being sewn, the sewn one from then on.
+    pub model: &'a Model,
+    /// It on the device.
+    pub cloth: &'a Cloth,
+}
+
+/// A scene that runs on the caller's device.
+///
+/// Garments are sewn, eased and draped one over the other, on bodies that stand still. Then everything goes on together: bodies,
+/// their maps, garments and sheets. The host advances it by any seconds and submits what was recorded; nothing here waits.
+///
+/// ```no_run
+/// # fn host(device: &wgpu::Device, queue: &wgpu::Queue, scene: &toile::scene::Scene) -> Result<(), toile::Error> {
+/// let mut simulation = toile::Simulation::new(device, scene)?;
+/// for _ in 0..1000 {
+///     let mut encoder = device.create_command_encoder(&Default::default());
+///     simulation.advance(&mut encoder, 1.0 / 144.0)?;
+///     // Draw the buffers of simulation.cloths() with the same encoder, then:
+///     queue.submit([encoder.finish()]);
+/// }
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug)]
+pub struct Simulation {
+    pub(crate) device: wgpu::Device,
+    pub(crate) settings: Settings,
+    pub(crate) bodies: Bodies,
+    /// The way of the body from the pose that garments are sewn in to the start of its motion.
+    pub(crate) way: Option<MovingMesh>,
+    /// Where the maps of the run stand, if its bodies decide that.
+    boxes: Option<Boxes>,
+    pub(crate) pieces: Vec<Piece>,
+    pub(crate) keeps_maps: bool,
+    pub(crate) clock: Clock,
+    pub(crate) phase: Phase,
+}
+
+/// What a simulation has on the device.
+#[derive(Debug)]
+pub(crate) enum Phase {
+    /// Garments are dressed one after the other.
+    Dressing(Box<Dressed>),
+    /// All go together: on the way to the start of the motion, or in the run.
+    Together {
+        outfit: Box<Outfit>,
+        stage: Stage,
+        /// Boxes around the garments as they were dressed, where the maps stand around them.
+        garment_bounds: Vec<[Vec3; 2]>,
+    },
+}
+
+/// Garments that are dressed, from the inside out, and the one that is being dressed.
+#[derive(Debug, Default)]
+pub(crate) struct Dressed {
+    pub(crate) done: Vec<Done>,
+    pub(crate) fitting: Option<Fitting>,
+}
+
+/// A garment that is dressed.
+#[derive(Debug)]
+pub(crate) struct Done {
+    pub(crate) cloth: Cloth,
+    pub(crate) dressing: Dressing,
+    pub(crate) bounds: Bounds,
+}
+
+/// The box around a dressed garment, which the maps of the next one need.
+#[derive(Debug)]
+pub(crate) enum Bounds {
+    Unknown,
+    UnderWay(Arrival),
+    Known([Vec3; 2]),
+}
+
+impl Simulation {
+    /// A scene at its start. A body that moves is dressed in the first pose of its motion, or without any clip where it then stands clear of
+    /// the panels and the first pose does not; it goes over to its motion in a second.
+    ///
+    /// # Errors
+    /// [`Error::Model`] when a garment cannot be meshed, [`Error::Steps`] when a frame would take too many steps, [`Error::Body`] when a body
+    /// leads to no map_box. What does not fit the device is told by [`Simulation::advance`].
+    pub fn new(device: &wgpu::Device, scene: &Scene) -> Result<Self, Error> {
+        let pieces = Piece::all(scene)?;
+        let way = match moving_body(scene) {
+            Some(body) => {
+                pose::way_from_rest(body, pieces.iter().filter_map(|piece| piece.open.as_ref().map(|open| &open.model)))
+            }
+            None => None,
+        };
+        Self::with_pieces(device, scene, pieces, way)
+    }
+
+    /// A scene whose garments are sewn in the first pose of `from`: the same body with another clip.
+    ///
+    /// # Errors
+    /// [`Error::Pose`] when the scene has no such body, and as [`Simulation::new`].
+    pub fn dressed_in(device: &wgpu::Device, scene: &Scene, from: &MovingMesh) -> Result<Self, Error> {
+        let body = moving_body(scene).ok_or(Error::Pose)?;
+        let way = MovingMesh::transition(from, body, pose::WAY_SECONDS).ok_or(Error::Pose)?;
+        Self::with_pieces(device, scene, Piece::all(scene)?, Some(way))
+    }
+
+    fn with_pieces(
+        device: &wgpu::Device,
+        scene: &Scene,
+        pieces: Vec<Piece>,
+        way: Option<MovingMesh>,
+    ) -> Result<Self, Error> {
+        let mut bodies = Bodies::default();
+        for body in &scene.bodies {
+            match body {
+                Body::Mesh(mesh) => bodies.still.push(mesh.clone()),
+                Body::Moving(moving) => bodies.moving.push(moving.clone()),
+                Body::Shape(shape) => bodies.shapes.push(shape.clone()),
+            }
+        }
+        let settings = scene.settings.clone();
+        let mut simulation = Self {
+            device: device.clone(),
+            way: way.filter(|_| pieces.iter().any(|piece| piece.open.is_some())),
+            boxes: None,
+            keeps_maps: false,
+            clock: Clock::default(),
+            phase: Phase::Dressing(Box::default()),
+            settings,
+            bodies,
+            pieces,
+        };
+        if !simulation.bodies.moving.is_empty() {
+            // Before any work: a body may lead to no map_box.
+            let bodies = &simulation.bodies;
+            simulation.boxes = Some(simulation.boxes_of(&bodies.moving, &bounds_of(&bodies.still))?);
+        }
+        Ok(simulation)
+    }
+
+    /// Goes on by `seconds` of the host's time and records what is due into its encoder: whole steps, the rest is kept. While garments are
+    /// dressed and while a body goes over to its motion, whole frames are recorded. What is recorded counts as done, so an encoder that is
+    /// dropped loses it.
+    ///
+    /// # Errors
+    /// [`Error::Diverged`] when a particle is not finite, [`Error::Dressing`] when a garment cannot be dressed, [`Error::Gpu`] when what comes
+    /// next does not fit the device.
+    ///
+    /// # Panics
+    /// When the seconds are negative or no number.
+    pub fn advance(&mut self, encoder: &mut wgpu::CommandEncoder, seconds: f64) -> Result<Advance, Error> {
+        self.advance_by(seconds, &mut |_, record| {
+            record(encoder);
+            Ok(())
+        })
+    }
+
+    /// Goes on by `seconds` and says how long that took: bodies and their maps, then all else [ms]. For measuring only: it submits, and waits.
+    ///
+    /// # Errors
+    /// As [`Simulation::advance`].
+    pub fn advance_timed(&mut self, queue: &wgpu::Queue, seconds: f64) -> Result<(Advance, [f64; 2]), Error> {
+        let device = self.device.clone();
+        let mut milliseconds = [0.0; 2];
+        let advance = self.advance_by(seconds, &mut |part, record| {
+            let start = std::time::Instant::now();
+            let mut encoder = device.create_command_encoder(&Default::default());
+            record(&mut encoder);
+            queue.submit([encoder.finish()]);
+            device
+                .poll(wgpu::PollType::wait_indefinitely())
+                .map_err(|error| toile_gpu::GpuError::Device(error.to_string()))?;
+            milliseconds[usize::from(part == Part::Steps)] += 1e3 * start.elapsed().as_secs_f64();
+            Ok(())
+        })?;
+        Ok((advance, milliseconds))
+    }
+
+    fn advance_by(&mut self, seconds: f64, recorder: &mut Recorder<'_>) -> Result<Advance, Error> {
+        if self.stage()? == Stage::Dressed || self.is_over() {
+            self.go_together(recorder)?;
+        }
+        let frame = 1.0 / self.settings.frame_rate;
+        let part = match &self.phase {
+            Phase::Together { outfit, stage: Stage::Running, .. } => outfit.part_seconds(),
+            _ => frame,
+        };
+        let (parts, mut advance) = self.clock.go_on(seconds, part, frame);
+        advance.step_count = match &mut self.phase {
+            Phase::Together { outfit, stage: Stage::Running, .. } => outfit.record(&self.device, parts, recorder)?,
+            Phase::Together { outfit, .. } => {
+                let per_frame = (frame / outfit.part_seconds()).round() as u64;
+                // The way may be over before all that is due is done.
+                let last = self.way.as_ref().map_or(0, |way| way_frames(way, frame));
+                outfit.record(&self.device, parts.start * per_frame..parts.end.min(last) * per_frame, recorder)?
+            }
+            Phase::Dressing(_) => {
+                let mut steps = 0;
+                for _ in parts {
+                    steps += self.dress_for_a_frame(recorder)?;
+                }
+                steps
+            }
+        };
+        Ok(advance)
+    }
+
+    /// What the simulation is doing, as far as the device has reported.
+    ///
+    /// # Errors
+    /// [`Error::Diverged`] when a particle is not finite, [`Error::Dressing`] when a garment cannot be dressed.
+    pub fn stage(&mut self) -> Result<Stage, Error> {
+        match &mut self.phase {
+            Phase::Together { outfit, stage, .. } => {
+                for cloth in outfit.cloths() {
+                    cloth.status()?;
+                }
+                Ok(*stage)
+            }
+            Phase::Dressing(dressed) => {
+                let garments = self.pieces.iter().filter(|piece| piece.open.is_some());
+                let next = garments.clone().nth(dressed.done.len());
+                let Some(piece) = next else {
+                    return Ok(if dressed.done.is_empty() { Stage::Running } else { Stage::Dressed });
+                };
+                let Some(mut fitting) = dressed.fitting.take() else { return Ok(Stage::Sewing) };
+                let heard = fitting.hear(piece);
+                let stage = fitting.dressing.stage();
+                if stage == DressingStage::Dressed && heard.is_ok() {
+                    let Fitting { cloth, dressing, .. } = fitting;
+                    dressed.done.push(Done { cloth, dressing, bounds: Bounds::Unknown });
+                    return self.stage();
+                }
+                dressed.fitting = Some(fitting);
+                heard?;
+                Ok(match stage {
+                    DressingStage::Sewing => Stage::Sewing,
+                    DressingStage::Easing => Stage::Easing,
+                    DressingStage::Draping | DressingStage::Dressed => Stage::Draping,
+                })
+            }
+        }
+    }
+
+    /// Whether there is nothing to dress, or the way to the start of the motion lies behind.
+    fn is_over(&self) -> bool {
+        match &self.phase {
+            Phase::Dressing(_) => self.pieces.iter().all(|piece| piece.open.is_none()),
+            Phase::Together { stage, .. } => {
+                let frames = self.way.as_ref().map_or(0, |way| way_frames(way, 1.0 / self.settings.frame_rate));
+                *stage == Stage::Posing && self.clock.done() >= frames
+            }
+        }
+    }
+
+    /// A frame of the garment that is being dressed; the number of its steps.
+    fn dress_for_a_frame(&mut self, recorder: &mut Recorder<'_>) -> Result<u32, Error> {
+        let Phase::Dressing(dressed) = &mut self.phase else { return Ok(0) };
+        let Some(piece) = self.pieces.iter().filter(|piece| piece.open.is_some()).nth(dressed.done.len()) else {
+            return Ok(0);
+        };
+        if dressed.fitting.is_none() {
+            let Some(inner) = known_bounds(&self.device, &mut dressed.done, recorder)? else { return Ok(0) };
+            let Phase::Dressing(dressed) = &self.phase else { return Ok(0) };
+            let maps = self.draw_still_maps(&dressed.done, &inner, recorder)?;
+            let Phase::Dressing(dressed) = &mut self.phase else { return Ok(0) };
+            let colliders = Colliders { maps, shapes: self.bodies.shapes.clone() };
+            let alike = dressed.done.last().map(|done| &done.cloth);
+            dressed.fitting = Some(Fitting::new(&self.device, piece, colliders, alike)?);
+        }
+        let Phase::Dressing(dressed) = &mut self.phase else { return Ok(0) };
+        let Some(fitting) = &mut dressed.fitting else { return Ok(0) };
+        let mut done = Ok(());
+        recorder(Part::Steps, &mut |encoder| done = fitting.record(&self.device, encoder, piece))?;
+        done?;
+        Ok(fitting.cloth.settings().steps_per_frame)
+    }
+
+    /// The meshes that garments are dressed on: bodies at rest, and those that move in the pose to dress in.
+    fn dressing_meshes(&self) -> Vec<&Mesh> {
+        let moving = match &self.way {
+            Some(way) => vec![&way.mesh],
+            None => self.bodies.moving.iter().map(|body| &body.mesh).collect(),
+        };
+        self.bodies.still.iter().chain(moving).collect()
+    }
+
+    /// Maps of everything at rest: the bodies and the garments that are dressed, in boxes of these bounds; `None` where there is nothing.
+    pub(crate) fn draw_still_maps(
+        &self,
+        garments: &[Done],
+        garment_bounds: &[[Vec3; 2]],
+        recorder: &mut Recorder<'_>,
+    ) -> Result<Option<Arc<BodyMaps>>, Error> {
+        let meshes = self.dressing_meshes();
+        let Some(map_box) = self.still_box(&meshes, garment_bounds) else { return Ok(None) };
+        let maps = BodyMaps::new(&self.device, map_box, false)?;
+        let mut surfaces: Vec<Surface> = meshes.iter().map(|mesh| Surface::new(&self.device, mesh)).collect();
+        surfaces.extend(garments.iter().map(|done| Surface::from(done.cloth.frame())));
+        let thickness = self.thickness();
+        let drawn: Vec<_> = surfaces.iter().map(|surface| (surface, thickness)).collect();
+        recorder(Part::Maps, &mut |encoder| maps.record(&self.device, encoder, map_box, &drawn))?;
+        Ok(Some(Arc::new(maps)))
+    }
+
+    /// The box of maps of surfaces at rest.
+    fn still_box(&self, meshes: &[&Mesh], garment_bounds: &[[Vec3; 2]]) -> Option<MapBox> {
+        let thickness = self.thickness();
+        let bounds = meshes.iter().filter_map(|mesh| mesh.bounds()).chain(garment_bounds.iter().copied());
+        let thick = bounds.map(|[low, high]| [low - thickness, high + thickness]);
+        Some(MapBox::around(thick.reduce(around_both)?, self.settings.texel as f32))
+    }
+
+    fn thickness(&self) -> f32 {
+        self.settings.fabric.thickness as f32
+    }
+
+    fn boxes_of(&self, moving: &[MovingMesh], still: &[[Vec3; 2]]) -> Result<Boxes, Error> {
+        let thickness = self.pieces.iter().map(|piece| piece.step.thickness).fold(0.0, f32::max);
+        Boxes::new(moving, still, self.settings.texel as f32, thickness, self.pieces.len() > 1)
+    }
+
+    /// Begins what comes after the present phase: the way to the start of the motion, or the run.
+    fn go_together(&mut self, recorder: &mut Recorder<'_>) -> Result<(), Error> {
+        let begins = matches!(self.phase, Phase::Dressing(_));
+        let stage = if begins && self.way.is_some() { Stage::Posing } else { Stage::Running };
+        let mut garment_bounds = Vec::new();
+        if let Phase::Dressing(dressed) = &mut self.phase
+            && self.bodies.moving.is_empty()
+            && self.pieces.len() > 1
+        {
+            // Maps of what nobody moves stand around where it hangs.
+            let Some(known) = known_bounds(&self.device, &mut dressed.done, recorder)? else { return Ok(()) };
+            garment_bounds = known;
+        }
+        let mut outfit = self.outfit(stage, &garment_bounds)?;
+        let device = self.device.clone();
+        recorder(Part::Steps, &mut |encoder| match &self.phase {
+            Phase::Dressing(dressed) => {
+                // Garments begin at rest where they hang.
+                let garments = self.pieces.iter().zip(outfit.cloths()).filter(|(piece, _)| piece.open.is_some());
+                for ((_, cloth), done) in garments.zip(&dressed.done) {
+                    let (from, to) = (&done.cloth.frame().positions, &cloth.frame().positions);
+                    encoder.copy_buffer_to_buffer(from, 0, to, 0, from.size());
+                }
+            }
+            Phase::Together { outfit: before, .. } => {
+                for (from, to) in before.cloths().zip(outfit.cloths()) {
+                    from.record_state(encoder, to);
+                }
+            }
+        })?;
+        if self.keeps_maps && stage == Stage::Running {
+            outfit.keep_maps(&device, &self.bodies.moving[0], recorder)?;
+        }
+        self.clock = Clock::default();
+        self.phase = Phase::Together { outfit: Box::new(outfit), stage, garment_bounds };
+        Ok(())
+    }
+
+    /// All cloths together at the start of their models, on the way or in the run. Bodies that stand still have maps around them and around
+    /// these boxes.
+    pub(crate) fn outfit(&self, stage: Stage, garment_bounds: &[[Vec3; 2]]) -> Result<Outfit, Error> {
+        let on_the_way = self.way.as_ref().filter(|_| stage == Stage::Posing);
+        let bodies = match on_the_way {
+            Some(way) => Bodies { moving: vec![way.clone()], ..self.bodies.clone() },
+            None => self.bodies.clone(),
+        };
+        let mut still = bounds_of(&bodies.still);
+        let boxes = match (on_the_way, &self.boxes) {
+            (Some(_), _) => Some(self.boxes_of(&bodies.moving, &still)?),
+            (None, Some(known)) => Some(known.clone()),
+            (None, None) if self.pieces.len() > 1 => {
+                still.extend(garment_bounds);
+                still.extend(self.pieces.iter().filter(|piece| piece.open.is_none()).filter_map(Piece::reach));
+                Some(self.boxes_of(&[], &still)?)
+            }
+            (None, None) => None,
+        };
+        let still_box = self.still_box(&bodies.still.iter().collect::<Vec<_>>(), &[]);
+        let rate = self.settings.frame_rate;
+        let first = self.pieces.first().map_or(1, |piece| piece.step.steps_per_frame);
+        let parts = maps_per_frame(first, rate);
+        let cloths: Vec<(&Model, StepSettings)> = self
+            .pieces
+            .iter()
+            .map(|piece| {
+                let step = if on_the_way.is_some() { piece.step.easing() } else { piece.step.clone() };
+                (&piece.model, step.in_parts(parts))
+            })
+            .collect();
+        let alike = match &self.phase {
+            Phase::Dressing(dressed) => dressed.done.last().map(|done| &done.cloth),
+            Phase::Together { outfit, .. } => outfit.cloths().next(),
+        };
+        Outfit::new(&self.device, &bodies, &cloths, boxes, still_box, rate, alike)
+    }
+
+    /// Has the maps of a whole round of the body drawn once, when the run begins, and copied from then on; how many bytes they take. D §7, W §6.
+    ///
+    /// # Errors
+    /// [`Error::Round`] when the scene has not one moving body alone, or its motion does not end as it begins after a whole number of maps.
+    ///
+    /// # Panics
+    /// When the run has begun.
+    pub fn keep_maps(&mut self) -> Result<u64, Error> {
+        let running = matches!(self.phase, Phase::Together { stage: Stage::Running, .. });
+        assert!(!running, "maps are kept from the beginning of the run or not at all");
+        let rate = self.settings.frame_rate;
+        let first = self.pieces.first().map_or(1, |piece| piece.step.steps_per_frame);
+        let interval = 1.0 / rate / f64::from(maps_per_frame(first, rate));
+        let ([body], [], Some(boxes)) = (self.bodies.moving.as_slice(), self.bodies.still.as_slice(), &self.boxes)
+        else {
+            return Err(Error::Round { duration: 0.0, interval });
+        };
+        let Some(count) = maps_of_round(body, interval) else {
+            return Err(Error::Round { duration: body.duration(), interval });
+        };
+        self.keeps_maps = true;
+        Ok(u64::from(count) * BodyMaps::bytes_over(&boxes.at(0.0), true))
+    }
+
+    /// The cloths that are on the device, from the inside out: while garments are dressed those that are, and the one that is being dressed.
+    pub fn cloths(&self) -> impl Iterator<Item = Worn<'_>> {
+        let cloths: Vec<&Cloth> = match &self.phase {
+            Phase::Dressing(dressed) => {
+                let fitting = dressed.fitting.iter().map(|fitting| &fitting.cloth);
+                dressed.done.iter().map(|done| &done.cloth).chain(fitting).collect()
+            }
+            Phase::Together { outfit, .. } => outfit.cloths().collect(),
+        };
+        let dressing = matches!(self.phase, Phase::Dressing(_));
+        let pieces = self.pieces.iter().filter(move |piece| !dressing || piece.open.is_some());
+        pieces.zip(cloths).map(|(piece, cloth)| Worn { name: &piece.name, model: piece.model_of(cloth), cloth })
+    }
+
+    /// The cloths themselves, for measuring: [`Cloth::time_step`] goes on by a step.
+    pub fn cloths_mut(&mut self) -> impl Iterator<Item = &mut Cloth> {
+        let cloths: Vec<&mut Cloth> = match &mut self.phase {
+            Phase::Dressing(dressed) => {
+                let fitting = dressed.fitting.iter_mut().map(|fitting| &mut fitting.cloth);
+                dressed.done.iter_mut().map(|done| &mut done.cloth).chain(fitting).collect()
+            }
+            Phase::Together { outfit, .. } => outfit.cloths_mut().collect(),
+        };
+        cloths.into_iter()
+    }
+
+    /// How garments have been dressed, from the inside out, and how far the present one is; empty from then on.
+    pub fn dressings(&self) -> impl Iterator<Item = &Dressing> {
+        let dressed = match &self.phase {
+            Phase::Dressing(dressed) => Some(dressed),
+            Phase::Together { .. } => None,
+        };
+        dressed.into_iter().flat_map(|dressed| {
+            let fitting = dressed.fitting.iter().map(|fitting| &fitting.dressing);
+            dressed.done.iter().map(|done| &done.dressing).chain(fitting)
+        })
+    }
+
+    /// The bodies on the device as the maps draw them, at [`Simulation::body_time`]: those at rest, then those that move; none while garments
+    /// are dressed.
+    pub fn bodies(&self) -> impl Iterator<Item = &Surface> {
+        let outfit = match &self.phase {
+            Phase::Dressing(_) => None,
+            Phase::Together { outfit, .. } => Some(outfit),
+        };
+        outfit.into_iter().flat_map(|outfit| outfit.bodies())
+    }
+
+    /// Where the maps of the cloths stand; `None` without maps and while garments are dressed.
+    pub fn map_box(&self) -> Option<MapBox> {
+        match &self.phase {
+            Phase::Dressing(_) => None,
+            Phase::Together { outfit, .. } => outfit.shown(),
+        }
+    }
+
+    /// Time since the run began that is simulated [s]; 0 before.
+    pub fn time(&self) -> f64 {
+        match &self.phase {
+            Phase::Together { outfit, stage: Stage::Running, .. } => self.clock.done() as f64 * outfit.part_seconds(),
+            _ => 0.0,
+        }
+    }
+
+    /// Time in the motion of the bodies that [`Simulation::bodies`] and the maps show [s]: the end of the present interval of the maps, of which
+    /// there are at least 60 in a second.
+    pub fn body_time(&self) -> f64 {
+        match &self.phase {
+            Phase::Dressing(_) => 0.0,
+            Phase::Together { outfit, .. } => outfit.body_time(),
+        }
+    }
+
+    /// Bytes on the device.
+    pub fn bytes(&self) -> u64 {
+        let cloths: u64 = self.cloths().map(|worn| worn.cloth.bytes()).sum();
+        match &self.phase {
+            Phase::Dressing(_) => cloths,
+            Phase::Together { outfit, .. } => cloths + outfit.bytes(),
+        }
+    }
+}
+
+impl Bounds {
+    /// The box, where it has arrived.
+    pub(crate) fn known(&self) -> Option<[Vec3; 2]> {
+        match self {
+            Bounds::Known(bounds) => Some(*bounds),
+            Bounds::Unknown | Bounds::UnderWay(_) => None,
+        }
+    }
+}
+
+/// Frames from the pose that garments are sewn in to the start of the motion.
+fn way_frames(way: &MovingMesh, frame: f64) -> u64 {
+    ((way.duration() + WAITING_SECONDS) / frame).ceil() as u64
+}
+
+/// The only mesh of a scene that moves.
+fn moving_body(scene: &Scene) -> Option<&MovingMesh> {
+    let mut moving = scene.bodies.iter().filter_map(|body| match body {
+        Body::Moving(moving) => Some(moving),
+        Body::Mesh(_) | Body::Shape(_) => None,
+    });
+    moving.next().filter(|_| moving.next().is_none())
+}
+
+fn bounds_of(meshes: &[Mesh]) -> Vec<[Vec3; 2]> {
+    meshes.iter().filter_map(Mesh::bounds).collect()
+}
+
+/// The boxes around all garments that are dressed, if they are known; otherwise they are asked for, and arrive with a later call.
+fn known_bounds(
+    device: &wgpu::Device,
+    done: &mut [Done],
+    recorder: &mut Recorder<'_>,
+) -> Result<Option<Vec<[Vec3; 2]>>, Error> {
+    for Done { cloth, bounds, .. } in done.iter_mut() {
+        if let Bounds::UnderWay(arrival) = bounds {
+            if let Some(bytes) = arrival.take() {
+                let positions = bytemuck::pod_collect_to_vec::<u8, Vec4>(&bytes);
+                let mesh = Mesh { positions: positions.iter().map(|p| p.truncate()).collect(), ..Mesh::default() };
+                *bounds = Bounds::Known(mesh.bounds().unwrap_or_default());
+            } else if arrival.is_over() {
+                *bounds = Bounds::Unknown;
+            }
+        }
+        if matches!(bounds, Bounds::Unknown) {
+            recorder(Part::Steps, &mut |encoder| {
+                *bounds = Bounds::UnderWay(Arrival::of(device, encoder, &cloth.frame().positions));
+            })?;
+        }
+    }
+    Ok(done.iter().map(|done| done.bounds.known()).collect())
+}

@@ -1,0 +1,242 @@
+//! The whole state of a simulation as bytes, from which it goes on bit for bit.
+
+use crate::clock::Clock;
+use crate::fitting::Fitting;
+use crate::outfit::{Outfit, Part};
+use crate::piece::Piece;
+use crate::simulation::{Bounds, Done, Dressed, Phase, Simulation, Stage};
+use crate::{Cloth, Colliders, Error};
+use glam::{Vec3, Vec4};
+use serde::{Deserialize, Serialize};
+use toile_gpu::readback;
+use toile_model::{Dressing, DressingStage, Status, digest_of};
+
+/// What the bytes begin with; another layout has another number.
+const MAGIC: &[u8] = b"toile state 1\n";
+
+/// The whole state of a simulation.
+#[derive(Debug, Serialize, Deserialize)]
+struct State {
+    pieces: Vec<Identity>,
+    stage: SavedStage,
+    asked_seconds: f64,
+    done_parts: u64,
+    /// Boxes around the garments when they were dressed, where the maps stand around them.
+    garment_bounds: Vec<[[f32; 3]; 2]>,
+    cloths: Vec<SavedCloth>,
+}
+
+/// Which cloth a state is of.
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+struct Identity {
+    name: String,
+    particle_count: u32,
+    digest: u64,
+}
+
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+enum SavedStage {
+    Dressing,
+    Posing,
+    Running,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+struct SavedCloth {
+    /// How far it is dressed; `None` once all go together.
+    dressing: Option<SavedDressing>,
+    step: u64,
+    status: Option<Status>,
+    /// Contents of the buffers that carry over from step to step, by name.
+    buffers: Vec<(String, Vec<u32>)>,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct SavedDressing {
+    dressing: Dressing,
+    /// The stage that the cloth has been handed over for.
+    stage: DressingStage,
+    /// The step of the last status that was heard.
+    heard: Option<u64>,
+}
+
+impl Simulation {
+    /// The whole state as bytes: of garments that are being dressed, on the way or in the run. Waits for the device; what was recorded must
+    /// have been submitted.
+    ///
+    /// # Errors
+    /// [`Error::Gpu`] when the device is lost, [`Error::Diverged`] when a particle is not finite.
+    pub fn save(&self, queue: &wgpu::Queue) -> Result<Vec<u8>, Error> {
+        let save = |cloth: &Cloth, dressing: Option<SavedDressing>| -> Result<SavedCloth, Error> {
+            let read = |(name, buffer): (&'static str, &wgpu::Buffer)| {
+                let bytes = readback::read_buffer(&self.device, queue, buffer)?;
+                Ok((name.to_owned(), bytemuck::pod_collect_to_vec(&bytes)))
+            };
+            Ok(SavedCloth {
+                dressing,
+                step: cloth.step(),
+                buffers: cloth.state().map(read).collect::<Result<_, Error>>()?,
+                status: cloth.status()?,
+            })
+        };
+        let (stage, garment_bounds, cloths) = match &self.phase {
+            Phase::Dressing(dressed) => {
+                let done = dressed.done.iter().map(|Done { cloth, dressing, .. }| {
+                    let (dressing, stage) = (dressing.clone(), DressingStage::Draping);
+                    (cloth, SavedDressing { dressing, stage, heard: Some(cloth.step()) })
+                });
+                let fitting = dressed.fitting.iter().map(|Fitting { cloth, dressing, heard, stage }| {
+                    (cloth, SavedDressing { dressing: dressing.clone(), stage: *stage, heard: *heard })
+                });
+                let cloths = done.chain(fitting).map(|(cloth, dressing)| save(cloth, Some(dressing)));
+                (SavedStage::Dressing, Vec::new(), cloths.collect::<Result<_, _>>()?)
+            }
+            Phase::Together { outfit, stage, garment_bounds } => {
+                let stage = if *stage == Stage::Running { SavedStage::Running } else { SavedStage::Posing };
+                let bounds = garment_bounds.iter().map(|bounds| bounds.map(|corner| corner.to_array())).collect();
+                (stage, bounds, outfit.cloths().map(|cloth| save(cloth, None)).collect::<Result<_, _>>()?)
+            }
+        };
+        let state = State {
+            pieces: self.pieces.iter().map(Identity::of).collect(),
+            stage,
+            asked_seconds: self.clock.asked(),
+            done_parts: self.clock.done(),
+            garment_bounds,
+            cloths,
+        };
+        let body = postcard::to_stdvec(&state).map_err(|error| Error::State(error.to_string()))?;
+        let mut bytes = MAGIC.to_vec();
+        bytes.extend(digest_of(&body).to_le_bytes());
+        bytes.extend(body);
+        Ok(bytes)
+    }
+
+    /// Goes on from a state that [`Simulation::save`] gave of the same scene; whatever this simulation has done is forgotten. It submits what
+    /// fills the buffers. After an error the simulation is as it was.
+    ///
+    /// # Errors
+    /// [`Error::State`] when the bytes are damaged or of other cloths, which are named; [`Error::Gpu`] when what it needs does not fit the device.
+    pub fn restore(&mut self, queue: &wgpu::Queue, bytes: &[u8]) -> Result<(), Error> {
+        let state = decode(bytes)?;
+        let own: Vec<Identity> = self.pieces.iter().map(Identity::of).collect();
+        for (saved, own) in state.pieces.iter().zip(&own) {
+            if saved != own {
+                let named =
+                    |identity: &Identity| format!("{} with {} particles", identity.name, identity.particle_count);
+                return Err(Error::State(format!(
+                    "it is of {}, and the scene has {} of other numbers",
+                    named(saved),
+                    named(own)
+                )));
+            }
+        }
+        if state.pieces.len() != own.len() {
+            return Err(Error::State(format!("it has {} cloths, and the scene has {}", state.pieces.len(), own.len())));
+        }
+        let phase = match state.stage {
+            SavedStage::Dressing => self.restored_dressing(queue, &state)?,
+            SavedStage::Posing => self.restored_together(queue, &state, Stage::Posing)?,
+            SavedStage::Running => self.restored_together(queue, &state, Stage::Running)?,
+        };
+        self.phase = phase;
+        self.clock = Clock::new(state.asked_seconds, state.done_parts);
+        Ok(())
+    }
+
+    fn restored_dressing(&self, queue: &wgpu::Queue, state: &State) -> Result<Phase, Error> {
+        let mut dressed = Dressed::default();
+        let garments = self.pieces.iter().filter_map(|piece| piece.open.as_ref().map(|open| (piece, open)));
+        for ((piece, open), saved) in garments.zip(&state.cloths) {
+            let SavedDressing { dressing, stage, heard } = saved.dressing.clone().ok_or_else(damaged)?;
+            let inner: Option<Vec<_>> = dressed.done.iter().map(|done| done.bounds.known()).collect();
+            let inner = inner.ok_or_else(damaged)?;
+            let maps = self.draw_still_maps(&dressed.done, &inner, &mut |_, record| {
+                let mut encoder = self.device.create_command_encoder(&Default::default());
+                record(&mut encoder);
+                queue.submit([encoder.finish()]);
+                Ok(())
+            })?;
+            let model = if stage == DressingStage::Sewing { &open.model } else { &piece.model };
+            let colliders = Colliders { maps, shapes: self.bodies.shapes.clone() };
+            let mut cloth = Cloth::new(&self.device, model, &piece.settings_of(stage), colliders)?;
+            saved.write(queue, &mut cloth)?;
+            if dressing.stage() == DressingStage::Dressed {
+                let bounds = Bounds::Known(saved.bounds().ok_or_else(damaged)?);
+                dressed.done.push(Done { cloth, dressing, bounds });
+            } else {
+                dressed.fitting = Some(Fitting { cloth, dressing, heard, stage });
+            }
+        }
+        Ok(Phase::Dressing(Box::new(dressed)))
+    }
+
+    fn restored_together(&self, queue: &wgpu::Queue, state: &State, stage: Stage) -> Result<Phase, Error> {
+        if state.cloths.len() != self.pieces.len() || (stage == Stage::Posing && self.way.is_none()) {
+            return Err(damaged());
+        }
+        let bounds: Vec<[Vec3; 2]> = state.garment_bounds.iter().map(|bounds| bounds.map(Vec3::from_array)).collect();
+        let mut outfit: Outfit = self.outfit(stage, &bounds)?;
+        for (saved, cloth) in state.cloths.iter().zip(outfit.cloths_mut()) {
+            saved.write(queue, cloth)?;
+        }
+        if self.keeps_maps && stage == Stage::Running {
+            outfit.keep_maps(&self.device, &self.bodies.moving[0], &mut |_: Part, record| {
+                let mut encoder = self.device.create_command_encoder(&Default::default());
+                record(&mut encoder);
+                queue.submit([encoder.finish()]);
+                Ok(())
+            })?;
+        }
+        let frame = 1.0 / self.settings.frame_rate;
+        let per_part = if stage == Stage::Running { 1 } else { (frame / outfit.part_seconds()).round() as u64 };
+        outfit.resume(state.done_parts * per_part);
+        Ok(Phase::Together { outfit: Box::new(outfit), stage, garment_bounds: bounds })
+    }
+}
+
+fn damaged() -> Error {
+    Error::State("it is damaged".to_owned())
+}
+
+fn decode(bytes: &[u8]) -> Result<State, Error> {
+    let rest =
+        bytes.strip_prefix(MAGIC).ok_or_else(|| Error::State("it is none of this version of toile".to_owned()))?;
+    let (digest, body) = rest.split_first_chunk::<8>().ok_or_else(damaged)?;
+    if digest_of(body).to_le_bytes() != *digest {
+        return Err(damaged());
+    }
+    postcard::from_bytes(body).map_err(|_| damaged())
+}
+
+impl Identity {
+    fn of(piece: &Piece) -> Self {
+        let numbers = format!("{:?}", piece.step);
+        let digest = piece.model.digest() ^ digest_of(numbers.as_bytes());
+        Self { name: piece.name.clone(), particle_count: piece.model.particle_count(), digest }
+    }
+}
+
+impl SavedCloth {
+    /// Writes the state into the buffers of a fresh cloth.
+    fn write(&self, queue: &wgpu::Queue, cloth: &mut Cloth) -> Result<(), Error> {
+        for (name, buffer) in cloth.state() {
+            let Some((_, words)) = self.buffers.iter().find(|(known, _)| known == name) else { return Err(damaged()) };
+            if 4 * words.len() as u64 != buffer.size() {
+                return Err(damaged());
+            }
+            queue.write_buffer(buffer, 0, bytemuck::cast_slice(words));
+        }
+        cloth.resume(self.step, self.status);
+        Ok(())
+    }
+
+    /// The box around its particles.
+    fn bounds(&self) -> Option<[Vec3; 2]> {
+        let (_, words) = self.buffers.iter().find(|(name, _)| name == "positions")?;
+        let positions =
+            || words.chunks_exact(4).map(|p| Vec4::from_array([p[0], p[1], p[2], p[3]].map(f32::from_bits)));
+        let corner = |pick: fn(Vec3, Vec3) -> Vec3| positions().map(Vec4::truncate).reduce(pick);
+        Some([corner(Vec3::min)?, corner(Vec3::max)?])
+    }
+}

@@ -1,0 +1,102 @@
+//! From garments and a body to a walk, without waiting.
+
+use crate::support::{start, walking, woman};
+use std::collections::VecDeque;
+use toile::{Error, Simulation, Stage};
+use toile_model::DressingError;
+use toile_workspace::gpu;
+
+/// Frames that a host has under way, as a swap chain has.
+const FRAMES_UNDER_WAY: usize = 2;
+
+/// Goes on until a stage, as a host that draws: it waits for frames of the past, never for the one that it submits. The stages on the way.
+fn drive(simulation: &mut Simulation, until: Stage) -> Vec<Stage> {
+    let mut stages = Vec::new();
+    let mut under_way = VecDeque::new();
+    for _ in 0..2000 {
+        let stage = simulation.stage().unwrap_or_else(|error| panic!("{error}"));
+        if stages.last() != Some(&stage) {
+            stages.push(stage);
+        }
+        if stage == until {
+            return stages;
+        }
+        let mut encoder = gpu().device.create_command_encoder(&Default::default());
+        simulation.advance(&mut encoder, 1.0 / 60.0).unwrap_or_else(|error| panic!("{error}"));
+        under_way.push_back(gpu().queue.submit([encoder.finish()]));
+        if under_way.len() > FRAMES_UNDER_WAY {
+            let wait = wgpu::PollType::Wait { submission_index: under_way.pop_front(), timeout: None };
+            gpu().device.poll(wait).expect("the device answers");
+        }
+    }
+    panic!("{until:?} does not come after {stages:?}");
+}
+
+#[test]
+fn a_striding_woman_is_dressed_and_walks() {
+    let mut simulation = start(&walking(&["skirt"], "walk_loop"));
+    let stages = drive(&mut simulation, Stage::Running);
+    // In her first pose a leg stands before its panel: she is dressed without the clip and goes over to it.
+    let all = [Stage::Sewing, Stage::Easing, Stage::Draping, Stage::Dressed, Stage::Posing, Stage::Running];
+    assert_eq!(stages, all);
+    for _ in 0..12 {
+        let mut encoder = gpu().device.create_command_encoder(&Default::default());
+        simulation.advance(&mut encoder, 1.0 / 60.0).unwrap_or_else(|error| panic!("{error}"));
+        gpu().queue.submit([encoder.finish()]);
+    }
+    let worn = simulation.cloths().next().expect("the skirt");
+    assert_eq!(worn.name, "skirt");
+    let heights: Vec<f32> = gpu().vec3s(&worn.cloth.frame().positions).iter().map(|p| p.y).collect();
+    let (low, high) = heights.iter().fold((f32::INFINITY, 0.0f32), |(low, high), y| (low.min(*y), high.max(*y)));
+    assert!(0.3 < low && 0.85 < high && high < 1.2, "from {low} to {high} m it hangs from her waist");
+    assert!((simulation.time() - 0.2).abs() < 0.02, "{} s of the walk", simulation.time());
+    assert!(simulation.bodies().next().is_some_and(|body| body.index_count > 10_000), "a host can draw her");
+}
+
+#[test]
+fn a_body_that_stands_clear_is_dressed_as_it_begins() {
+    let mut simulation = start(&walking(&["skirt"], "apose_to_walk"));
+    let stages = drive(&mut simulation, Stage::Running);
+    assert_eq!(stages, [Stage::Sewing, Stage::Easing, Stage::Draping, Stage::Dressed, Stage::Running]);
+}
+
+#[test]
+fn a_body_is_dressed_in_the_clip_that_is_named_or_not_at_all() {
+    let scene = walking(&["skirt"], "walk_loop");
+    let named = Simulation::dressed_in(&gpu().device, &scene, &woman("apose_to_walk"));
+    assert_eq!(named.expect("a clip of the same body").stage().expect("nothing ran yet"), Stage::Sewing);
+    let ball = crate::support::rolling(1);
+    let toile_scene::Body::Moving(other) = &ball.bodies[0] else { panic!("it rolls") };
+    let error = Simulation::dressed_in(&gpu().device, &scene, other).expect_err("a ball is no woman");
+    assert!(matches!(error, Error::Pose), "{error}");
+    let error = Simulation::dressed_in(&gpu().device, &toile_lab::fixtures::scene("hang", &[]), other);
+    assert!(error.is_err(), "nobody moves");
+}
+
+/// A seam that a body stands in the way of stays open: that is said by name, and what was done is still there.
+#[test]
+fn what_was_done_is_there_after_an_error() {
+    let mut scene = walking(&["skirt"], "apose_to_walk");
+    let toile_scene::Cloth::Garment(skirt) = &mut scene.cloths[0] else { panic!("a garment") };
+    // Panels a hundred metres apart do not meet in three seconds.
+    skirt.panels[0].placement.translation.z += 100.0;
+    let mut simulation = start(&scene);
+    let error = loop {
+        let mut encoder = gpu().device.create_command_encoder(&Default::default());
+        let advanced = simulation.advance(&mut encoder, 0.25);
+        gpu().queue.submit([encoder.finish()]);
+        gpu().device.poll(wgpu::PollType::wait_indefinitely()).expect("the device answers");
+        if let Err(error) = advanced {
+            break error;
+        }
+    };
+    let Error::Dressing { garment, source: DressingError::SeamsOpen { gap_mm, .. } } = &error else {
+        panic!("{error}")
+    };
+    assert_eq!(garment, "skirt");
+    assert!(*gap_mm > 1e3, "{error}");
+    let worn = simulation.cloths().next().expect("the panels");
+    let positions = gpu().vec3s(&worn.cloth.frame().positions);
+    let (seam, gap) = worn.model.widest_seam(&positions).expect("seams are open");
+    assert!(seam.contains(" to ") && gap > 1.0, "{seam}: {gap} m");
+}

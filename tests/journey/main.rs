@@ -1,0 +1,7 @@
+//! The library's door: a scene becomes a running simulation, is dressed, goes on one clock, is saved and goes on.
+
+mod clock;
+mod dressing;
+mod layers;
+mod saved;
+mod support;
