@@ -2,7 +2,7 @@
 
 use crate::clock::Clock;
 use crate::fitting::Fitting;
-use crate::outfit::{Outfit, Part};
+use crate::outfit::Outfit;
 use crate::piece::Piece;
 use crate::simulation::{Bounds, Done, Dressed, Phase, Simulation, Stage};
 use crate::{Cloth, Colliders, Error};
@@ -152,15 +152,15 @@ impl Simulation {
             let inner: Option<Vec<_>> = dressed.done.iter().map(|done| done.bounds.known()).collect();
             let inner = inner.ok_or_else(damaged)?;
             let maps = self.draw_still_maps(&dressed.done, &inner, &mut |_, record| {
-                let mut encoder = self.device.create_command_encoder(&Default::default());
-                record(&mut encoder);
-                queue.submit([encoder.finish()]);
+                submit(&self.device, queue, record);
                 Ok(())
             })?;
             let model = if stage == DressingStage::Sewing { &open.model } else { &piece.model };
             let colliders = Colliders { maps, shapes: self.bodies.shapes.clone() };
             let mut cloth = Cloth::new(&self.device, model, &piece.settings_of(stage), colliders)?;
             saved.write(queue, &mut cloth)?;
+            // What the maps of the next garment draw.
+            submit(&self.device, queue, &mut |encoder| cloth.record_normals(encoder));
             if dressing.stage() == DressingStage::Dressed {
                 let bounds = Bounds::Known(saved.bounds().ok_or_else(damaged)?);
                 dressed.done.push(Done { cloth, dressing, bounds });
@@ -181,10 +181,8 @@ impl Simulation {
             saved.write(queue, cloth)?;
         }
         if self.keeps_maps && stage == Stage::Running {
-            outfit.keep_maps(&self.device, &self.bodies.moving[0], &mut |_: Part, record| {
-                let mut encoder = self.device.create_command_encoder(&Default::default());
-                record(&mut encoder);
-                queue.submit([encoder.finish()]);
+            outfit.keep_maps(&self.device, &self.bodies.moving[0], &mut |_, record| {
+                submit(&self.device, queue, record);
                 Ok(())
             })?;
         }
@@ -193,6 +191,13 @@ impl Simulation {
         outfit.resume(state.done_parts * per_part);
         Ok(Phase::Together { outfit: Box::new(outfit), stage, garment_bounds: bounds })
     }
+}
+
+/// Submits what is recorded.
+fn submit(device: &wgpu::Device, queue: &wgpu::Queue, record: &mut dyn FnMut(&mut wgpu::CommandEncoder)) {
+    let mut encoder = device.create_command_encoder(&Default::default());
+    record(&mut encoder);
+    queue.submit([encoder.finish()]);
 }
 
 fn damaged() -> Error {

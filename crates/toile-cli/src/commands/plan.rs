@@ -93,15 +93,20 @@ fn plans(scene: &Scene, patterns: &[Pattern]) -> Result<Vec<ClothPlan>> {
             None => vec![("sheet", open, step(open)?)],
             Some(sewn) => vec![("open", open, step(open)?.sewing()), ("sewn", sewn, step(sewn)?.draping())],
         };
-        let map_bytes =
-            bounds.map_or(0, |b| BodyMaps::bytes_over(&MapBox::around(b, scene.settings.texel as f32), false));
+        // Sheets run with all else; a garment is dressed on bodies that stand still.
+        let moves =
+            sewn.is_none() && (patterns.len() > 1 || scene.bodies.iter().any(|body| matches!(body, Body::Moving(_))));
+        let maps = if bounds.is_none() {
+            Maps::None
+        } else if moves {
+            Maps::Moving
+        } else {
+            Maps::Still
+        };
+        let map_box = |bounds| MapBox::around(bounds, scene.settings.texel as f32);
+        let map_bytes = bounds.map_or(0, |bounds| BodyMaps::bytes_over(&map_box(bounds), moves));
         for (state, model, settings) in &models {
-            let needs = Needs::new(
-                model,
-                settings,
-                if bounds.is_some() { Maps::Still } else { Maps::None },
-                !shapes.is_empty(),
-            );
+            let needs = Needs::new(model, settings, maps, !shapes.is_empty());
             plans.push(ClothPlan::new(name, state, model, settings, &needs, &shapes, map_bytes));
         }
         // A later cloth lies over this one. Where it will hang is not known; near the body it changes little.
@@ -118,7 +123,8 @@ fn bounds(scene: &Scene) -> Option<[Vec3; 2]> {
         .iter()
         .filter_map(|body| match body {
             Body::Mesh(mesh) => mesh.bounds(),
-            Body::Moving(_) | Body::Shape(_) => None,
+            Body::Moving(body) => body.mesh.bounds(),
+            Body::Shape(_) => None,
         })
         .flat_map(|[low, high]| [low - thickness, high + thickness])
         .collect();

@@ -244,13 +244,44 @@ fn a_scene_that_a_run_does_not_know_is_refused() {
     let moving = "\n[[body]]\nfile = \"body.obj\"\nkeys = [{ time = 0 }, { time = 1, translation = [1, 0, 0] }]\n";
     fs::write(journey.folder.path().join("moving.toml"), text + moving).expect("a file");
     fs::write(journey.folder.path().join("body.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("a file");
+    let sentence = refused(journey.run(&["run", "moving.toml", "--backend", "reference"]));
+    assert!(sentence.starts_with("scene ball has a mesh that moves"), "{sentence}");
+    let dressed = format!("[[garment]]\nfile = {:?}\n{moving}", fixture("garments/skirt.json"));
+    fs::write(journey.folder.path().join("dressed.toml"), dressed).expect("a file");
+    let sentence = refused(journey.run(&["run", "dressed.toml"]));
+    assert!(sentence.starts_with("scene dressed has garments on a mesh that moves: toile walk"), "{sentence}");
     for command in ["run", "plan"] {
-        let sentence = refused(journey.run(&[command, "moving.toml"]));
-        assert!(sentence.starts_with("scene ball has a mesh that moves"), "{sentence}");
         let stiff = ["--set", "rule=none", "--set", "fabric.structural_stiffness=1e6", "--set", "n=256"];
         let sentence = refused(journey.run(&[&[command, &fixture("scenes/hang.toml")], &stiff[..]].concat()));
         assert!(sentence.contains("a frame would take"), "{sentence}");
     }
+}
+
+/// Bodies of every kind in one scene: they carry the cloth, and the result has them where they are at the end.
+#[test]
+fn a_sheet_runs_over_bodies_of_every_kind() {
+    let journey = Journey::new();
+    let sphere = "[[sphere]]\ncentre = [-0.3, 0, 0]\nradius = 0.2\n[[sphere]]\ncentre = [0.3, 0, 0]\nradius = 0.2\n";
+    let capsule = "[[capsule]]\nends = [[-0.2, 0, 0.3], [0.2, 0, 0.3]]\nradius = 0.1\n";
+    let plane = "[[plane]]\npoint = [0, -0.4, 0]\nnormal = [0, 1, 0]\n";
+    let mesh = "[[body]]\nfile = \"body.obj\"\nkeys = [{ time = 0 }, { time = 0.5, translation = [0, 0.1, 0] }]\n";
+    let sheet = "[[sheet]]\nsize = [1, 1]\ncorner = [-0.5, 0.22, 0.5]\nright = [1, 0, 0]\ndown = [0, 0, -1]\n";
+    let text = format!("n = 16\nframes = 20\ntexel = 0.01\n{sheet}{sphere}{capsule}{plane}{mesh}");
+    fs::write(journey.folder.path().join("all.toml"), text).expect("a file");
+    let octahedron = "v 0.1 0 -0.3\nv -0.1 0 -0.3\nv 0 0.1 -0.3\nv 0 -0.1 -0.3\nv 0 0 -0.2\nv 0 0 -0.4\n\
+        f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n";
+    fs::write(journey.folder.path().join("body.obj"), octahedron).expect("a file");
+    let metrics = json(&good(journey.run(&["run", "all.toml", "--json"])));
+    let depth = metrics["penetration_max_mm"].as_f64().expect("a number");
+    assert!(depth < 10.0, "{metrics}");
+    assert_eq!(metrics["non_finite_count"], 0);
+    let glb = fs::read(journey.folder.path().join("out/dressed.glb")).expect("a file");
+    let length = u32::from_le_bytes(glb[12..16].try_into().expect("four bytes")) as usize;
+    let root = json(std::str::from_utf8(&glb[20..20 + length]).expect("UTF-8 text"));
+    let names: Vec<_> = list(&root["meshes"]).iter().map(|mesh| &mesh["name"]).collect();
+    assert_eq!(names, ["body", "sphere", "sphere", "capsule", "plane", "sheet"]);
+    let plan = good(journey.run(&["plan", "all.toml"]));
+    assert!(plan.contains("sample_moving_maps") && plan.contains("sample_shapes"), "{plan}");
 }
 
 /// The signal is sent once the program listens, which the kernel tells.
