@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3, Quat, Vec3};
 const SPHERE_PARALLELS: u32 = 48;
 
 /// Side of the square that stands for a plane there [m].
-const PLANE_SIDE: f32 = 4.0;
+const PLANE_SIDE: f32 = 2.0;
 
 /// An analytic shape.
 #[derive(Clone, Debug, PartialEq)]
