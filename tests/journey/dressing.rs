@@ -1,6 +1,6 @@
 //! From garments and a body to a walk, without waiting.
 
-use crate::support::{start, walking, woman};
+use crate::support::{advance, start, walking, woman};
 use std::collections::VecDeque;
 use toile::{Error, Simulation, Stage};
 use toile_model::DressingError;
@@ -71,6 +71,30 @@ fn a_body_is_dressed_in_the_clip_that_is_named_or_not_at_all() {
     assert!(matches!(error, Error::Pose), "{error}");
     let error = Simulation::dressed_in(&gpu().device, &toile_lab::fixtures::scene("hang", &[]), other);
     assert!(error.is_err(), "nobody moves");
+}
+
+/// The frame rate of a scene decides its steps and how often its maps are drawn, not where the cloth ends.
+#[test]
+fn a_walk_ends_in_the_same_drape_at_any_frame_rate() {
+    let ends = [30.0, 60.0, 120.0].map(|rate| {
+        let mut scene = walking(&["skirt"], "apose_to_walk");
+        scene.settings.frame_rate = rate;
+        scene.settings.texel = 0.01;
+        let mut simulation = start(&scene);
+        while simulation.stage().expect("it can be dressed") != Stage::Dressed {
+            advance(&mut simulation, 1.0 / rate);
+        }
+        for _ in 0..(0.2 * rate) as u32 {
+            advance(&mut simulation, 1.0 / rate);
+        }
+        gpu().vec3s(&simulation.cloths().next().expect("the skirt").cloth.frame().positions)
+    });
+    for (one, other) in [(0, 1), (0, 2), (1, 2)] {
+        let distances: Vec<f32> = ends[one].iter().zip(&ends[other]).map(|(a, b)| a.distance(*b)).collect();
+        let mean = distances.iter().sum::<f32>() / distances.len() as f32;
+        let most = distances.iter().copied().fold(0.0, f32::max);
+        assert!(mean > 0.0 && mean < 0.003 && most < 0.01, "{mean} m apart on average, at most {most} m");
+    }
 }
 
 /// A seam that a body stands in the way of stays open: that is said by name, and what was done is still there.

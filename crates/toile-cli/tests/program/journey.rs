@@ -3,7 +3,7 @@
 use crate::support::{Journey, fixture, good, json, list, refused};
 use serde_json::Value;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
 
 /// The files of every run.
@@ -400,9 +400,9 @@ fn an_interrupted_walk_goes_on_bit_for_bit() {
             "--garment",
             &shirt,
             "--spacing",
-            "5cm",
+            "6cm",
             "--texel",
-            "1cm",
+            "2cm",
             "--seconds",
             "0.2",
             "--quiet",
@@ -487,7 +487,7 @@ fn every_rule_is_shown_and_the_default_holds_where_others_run_away() {
 fn an_outfit_walks_together() {
     let journey = Journey::new();
     let [skirt, shirt] = ["skirt", "shirt_sleeveless"].map(|name| fixture(&format!("garments/{name}.json")));
-    let garments = ["--garment", &skirt, "--garment", &shirt, "--spacing", "4cm", "--texel", "1cm"];
+    let garments = ["--garment", &skirt, "--garment", &shirt, "--spacing", "5cm", "--texel", "1cm"];
     let walk = ["walk", "--clip", "apose_to_walk", "--seconds", "0.2", "--fps", "30", "--wind", "0,0,-2", "--json"];
     let metrics = json(&good(journey.run(&[&walk[..], &garments[..]].concat())));
     assert_eq!(metrics["garments"], serde_json::json!(["skirt", "shirt_sleeveless"]));
@@ -502,33 +502,4 @@ fn an_outfit_walks_together() {
     let count = metrics["particle_count"].as_u64().expect("a number");
     // A header of 32 bytes, and seven frames of three floats for each particle.
     assert_eq!(points("0_skirt.pc2") + points("1_shirt_sleeveless.pc2"), 2 * 32 + 7 * 12 * count);
-}
-
-/// The points of the last frame of a point cache [m].
-fn last_points(path: &Path, count: usize) -> Vec<[f32; 3]> {
-    let bytes = fs::read(path).expect("the point cache");
-    let floats: Vec<f32> = bytes[bytes.len() - 12 * count..]
-        .chunks_exact(4)
-        .map(|float| f32::from_le_bytes(float.try_into().expect("four bytes")))
-        .collect();
-    floats.chunks_exact(3).map(|point| [point[0], point[1], point[2]]).collect()
-}
-
-#[test]
-fn a_walk_ends_in_the_same_drape_at_any_frame_rate() {
-    let journey = Journey::new();
-    let skirt = fixture("garments/skirt.json");
-    let ends = ["30", "60", "120"].map(|fps| {
-        let walk = ["walk", "--garment", &skirt, "--spacing", "6cm", "--texel", "1cm", "--seconds", "0.2", "--json"];
-        let metrics = json(&good(journey.run(&[&walk[..], &["--fps", fps, "--out", fps]].concat())));
-        let count = metrics["particle_count"].as_u64().expect("a number") as usize;
-        last_points(&journey.folder.path().join(fps).join("0_skirt.pc2"), count)
-    });
-    let apart = |(a, b): (&[f32; 3], &[f32; 3])| (0..3).map(|k| f64::from(a[k] - b[k]).powi(2)).sum::<f64>().sqrt();
-    for (one, other) in [(0, 1), (0, 2), (1, 2)] {
-        let distances: Vec<f64> = ends[one].iter().zip(&ends[other]).map(apart).collect();
-        let mean = distances.iter().sum::<f64>() / distances.len() as f64;
-        let most = distances.iter().copied().fold(0.0, f64::max);
-        assert!(mean > 0.0 && mean < 0.003 && most < 0.01, "{mean} m apart on average, at most {most} m");
-    }
 }
