@@ -158,7 +158,8 @@ fn particle_quads(random: &mut Random, counts: &Counts) -> Csr<u32> {
     }))
 }
 
-/// Spheres: one alone, two that mirror each other, and two in one place that move differently; a capsule and a plane.
+/// Spheres: one alone, two that mirror each other, and four in one place that move differently; a capsule and a plane. Of those that are
+/// equally near now an earlier one answers, now a later one.
 fn shapes() -> Vec<ShapeStep> {
     let sphere = ShapeStep {
         kind: ShapeKind::Sphere,
@@ -168,16 +169,16 @@ fn shapes() -> Vec<ShapeStep> {
         spin: vec3(0.3, -1.0, 2.0),
         axis: Vec3::ZERO,
     };
-    let mirrored = [-1.0, 1.0].map(|side| ShapeStep {
+    let mirrored = [1.0, -1.0].map(|side| ShapeStep {
         centre: vec3(MIRROR.x + side * 0.125, MIRROR.y, MIRROR.z),
         radius: 0.2,
         velocity: Vec3::ZERO,
         ..sphere
     });
-    let twins = [vec3(0.3, 0.2, 0.1), vec3(0.3, 0.0, 0.1)].map(|velocity| ShapeStep {
+    let alike = [[0.0, 0.5], [0.2, 0.1], [0.2, 0.3], [0.2, 0.0]].map(|[y, z]| ShapeStep {
         centre: vec3(-0.4, 0.4, 0.3),
         radius: 0.15,
-        velocity,
+        velocity: vec3(0.3, y, z),
         spin: Vec3::ZERO,
         ..sphere
     });
@@ -197,7 +198,7 @@ fn shapes() -> Vec<ShapeStep> {
         spin: vec3(0.1, 0.4, -0.2),
         axis: vec3(0.1, 1.0, -0.15).normalize(),
     };
-    [[sphere].as_slice(), &mirrored, &twins, &[capsule, plane]].concat()
+    [[sphere].as_slice(), &mirrored, &alike, &[capsule, plane]].concat()
 }
 
 fn counts(domain: Domain, items: u32) -> Counts {
@@ -574,6 +575,14 @@ fn place_at_the_edges(random: &mut Random, input: &mut Input) {
                 *position = core(random) + random.direction() * (shape.radius * random.between(1.1, 2.5));
                 *velocity =
                     shape.velocity + (core(random) - *position) * (random.between(0.5, 2.0) / input.settings.dt);
+            }
+            // Before an end of one with a direction, and into that end.
+            29 => {
+                let mut ended = input.shapes.iter().filter(|shape| shape.kind == ShapeKind::Capsule);
+                let shape = ended.next().expect("there is a capsule");
+                let end = shape.axis + shape.axis.normalize() * (shape.radius * random.between(1.05, 1.4));
+                *position = shape.centre + end + random.vector(0.3 * shape.radius);
+                *velocity = shape.velocity - end * (random.between(0.3, 1.0) / input.settings.dt);
             }
             // As near to two of them.
             9 => *position = vec3(MIRROR.x, MIRROR.y, MIRROR.z + random.between(-0.1, 0.1)),
