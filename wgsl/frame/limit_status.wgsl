@@ -1,6 +1,6 @@
 // The largest elongation, and how many structural and shear springs are over-long.
 #import shared/item
-#import shared/status
+#import struct/Status
 #import shared/elongation
 #import shared/step_params
 

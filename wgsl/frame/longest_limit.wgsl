@@ -1,6 +1,6 @@
 // The first of the structural and shear springs with the largest elongation.
 #import shared/item
-#import shared/status
+#import struct/Status
 #import shared/elongation
 #import shared/step_params
 

@@ -1,7 +1,7 @@
 // Counts particles that are not finite or run away, finds the largest speed and sums the kinetic energy of each workgroup.
 #import shared/item
 #import shared/step_params
-#import shared/status
+#import struct/Status
 #import shared/reduction
 
 @group(0) @binding(2) var<storage, read> positions: array<vec4<f32>>;

@@ -1,7 +1,7 @@
 // The largest gap of the open seams.
 #import shared/item
-#import shared/status
-#import shared/seam_pair
+#import struct/Status
+#import struct/SeamPair
 
 @group(0) @binding(2) var<storage, read> positions: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read> seam_pairs: array<SeamPair>;

@@ -1,5 +1,5 @@
 // The kinetic energy of all workgroups. One workgroup.
-#import shared/status
+#import struct/Status
 #import shared/reduction
 
 @group(0) @binding(0) var<storage, read> energy_partials: array<f32>;

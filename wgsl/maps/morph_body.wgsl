@@ -1,12 +1,7 @@
 // Bind positions and normals as the morph targets of a pose change them.
 #import shared/item
 #import shared/vertices
-
-struct Displacement {
-    position: vec3<f32>,
-    morph: u32,             // which target
-    normal: vec3<f32>,
-}
+#import struct/Displacement
 
 @group(0) @binding(1) var<storage, read> bind_positions: array<vec4<f32>>;
 @group(0) @binding(2) var<storage, read> bind_normals: array<vec4<f32>>;

@@ -1,13 +1,9 @@
 // Draws the surfaces of the bodies into the depth and normal maps, and those of moving bodies into the velocity map too, seen by
 // the front or the back camera. W §4.1-4.3.
-#import shared/map_box
+#import struct/MapBox
+#import struct/Side
 
 const FRONT: u32 = 0u;
-
-struct Side {
-    side: u32,          // 0 front, 1 back
-    thickness: f32,     // offset of the surface along its normals [m]
-}
 
 struct Texel {
     @builtin(position) position: vec4<f32>,

@@ -2,18 +2,8 @@
 // hold where a joint scales.
 #import shared/item
 #import shared/vertices
-
-struct Influence {
-    joint: u32,
-    weight: f32,
-}
-
-// From bind space to the world: the first three rows of the matrix [m].
-struct Joint {
-    row_x: vec4<f32>,
-    row_y: vec4<f32>,
-    row_z: vec4<f32>,
-}
+#import struct/Influence
+#import struct/Joint
 
 @group(0) @binding(1) var<storage, read> morphed_positions: array<vec4<f32>>;
 @group(0) @binding(2) var<storage, read> morphed_normals: array<vec4<f32>>;

@@ -1,5 +1,5 @@
 // How far a structural or shear spring is stretched.
-#import shared/limit
+#import struct/Limit
 
 @group(0) @binding(2) var<storage, read> limits: array<Limit>;
 @group(0) @binding(3) var<storage, read> positions: array<vec4<f32>>;

@@ -2,7 +2,7 @@
 #import shared/item
 #import shared/step_params
 #import shared/span
-#import shared/limit
+#import struct/Limit
 
 @group(0) @binding(2) var<storage, read> limits: array<Limit>;
 @group(0) @binding(3) var<storage, read> positions: array<vec4<f32>>;

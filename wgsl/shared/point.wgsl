@@ -1,8 +1,8 @@
 // The points that are tested against the bodies: first the particles, then the quad midpoints.
 #import shared/item
 #import shared/step_params
-#import shared/midpoint
-#import shared/probe
+#import struct/Midpoint
+#import struct/Probe
 
 @group(0) @binding(2) var<storage, read> positions: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read> velocities: array<vec4<f32>>;

@@ -2,7 +2,7 @@
 #import shared/item
 #import shared/step_params
 #import shared/span
-#import shared/seam_pair
+#import struct/SeamPair
 #import shared/pair
 
 @group(0) @binding(2) var<storage, read> seam_pairs: array<SeamPair>;

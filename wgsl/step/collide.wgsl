@@ -3,8 +3,8 @@
 // no more than would stop the midpoint alone: contacts bring no energy in. D §6, W eq. 15.
 #import shared/item
 #import shared/response
-#import shared/contact
-#import shared/midpoint
+#import struct/Contact
+#import struct/Midpoint
 
 @group(0) @binding(2) var<storage, read> midpoints: array<Midpoint>;
 @group(0) @binding(3) var<storage, read> probes: array<Probe>;

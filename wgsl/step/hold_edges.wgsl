@@ -2,12 +2,7 @@
 // not slide away; each of their particles stays free to go where its seam wants it. One workgroup per label.
 #import shared/step_params
 #import shared/reduction
-
-struct Hold {
-    first: u32,
-    count: u32,
-    height: f32,    // [m]
-}
+#import struct/Hold
 
 @group(0) @binding(2) var<storage, read> positions: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read> holds: array<Hold>;

@@ -1,7 +1,7 @@
 // After the guard: no particle goes deeper into a body than the thickness of the cloth.
 #import shared/item
 #import shared/step_params
-#import shared/probe
+#import struct/Probe
 
 @group(0) @binding(1) var<storage, read> positions: array<vec4<f32>>;
 @group(0) @binding(2) var<storage, read> probes: array<Probe>;

@@ -2,7 +2,7 @@
 // between them is long is removed from its velocity. Kim, Chentanez and Müller 2012. Pins stay where they are.
 #import shared/item
 #import shared/step_params
-#import shared/attachment
+#import struct/Attachment
 
 @group(0) @binding(2) var<storage, read> attachment_offsets: array<u32>;
 @group(0) @binding(3) var<storage, read> attachments: array<Attachment>;

@@ -1,7 +1,7 @@
 // Rule Directional: the rear end of an over-long spring takes the axial velocity of its front end, seen along v_dir, so
 // that it catches up. W §3.2, eq. 6. One colour per dispatch.
 #import shared/over_long
-#import shared/contact
+#import struct/Contact
 
 @group(0) @binding(5) var<storage, read> contacts: array<Contact>;
 

@@ -1,7 +1,7 @@
 // Rule Position: both ends of an over-long spring are moved together after the step. Provot; W §3.1. One colour per dispatch.
 #import shared/item
 #import shared/span
-#import shared/limit
+#import struct/Limit
 
 @group(0) @binding(2) var<storage, read> limits: array<Limit>;
 @group(0) @binding(3) var<storage, read_write> positions: array<vec4<f32>>;

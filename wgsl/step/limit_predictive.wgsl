@@ -3,7 +3,7 @@
 #import shared/item
 #import shared/step_params
 #import shared/span
-#import shared/limit
+#import struct/Limit
 #import shared/pair
 
 @group(0) @binding(2) var<storage, read> limits: array<Limit>;

@@ -2,7 +2,7 @@
 // each strand; it works on copies in its own memory. One colour per dispatch.
 #import shared/step_params
 #import shared/span
-#import shared/strand
+#import struct/Strand
 
 @group(0) @binding(2) var<storage, read> strands: array<Strand>;
 @group(0) @binding(3) var<storage, read> strand_particles: array<u32>;

@@ -1,7 +1,7 @@
 // The largest elongation above the target of a polish that the coming move would give a structural or shear spring.
 #import shared/item
 #import shared/step_params
-#import shared/limit
+#import struct/Limit
 #import shared/polish
 
 @group(0) @binding(3) var<storage, read> limits: array<Limit>;

@@ -2,7 +2,7 @@
 #import shared/item
 #import shared/step_params
 #import shared/quad
-#import shared/midpoint
+#import struct/Midpoint
 
 @group(0) @binding(2) var<storage, read> positions: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read> velocities: array<vec4<f32>>;

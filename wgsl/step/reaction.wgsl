@@ -1,7 +1,7 @@
 // What a body answers to the force that presses a particle onto it. W §5, eq. 16.
 #import shared/item
 #import shared/step_params
-#import shared/contact
+#import struct/Contact
 
 @group(0) @binding(2) var<storage, read> positions: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read> velocities: array<vec4<f32>>;

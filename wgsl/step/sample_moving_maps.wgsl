@@ -1,12 +1,7 @@
 // What each point sees of moving bodies in the depth, normal and velocity maps, which show them at the end of the recorded
 // steps: in the steps before, every surface stands back by its velocity, so that no step sees it jump. W §4.3-4.4.
 #import shared/map_planes
-
-// How long before the time of the maps a step begins and ends.
-struct Lag {
-    start: f32,     // [s]
-    end: f32,       // [s]
-}
+#import struct/Lag
 
 @group(0) @binding(1) var<uniform> lag: Lag;
 @group(0) @binding(9) var velocity_map: texture_2d_array<f32>;

@@ -1,11 +1,7 @@
 // Springs, gravity and viscous damping, gathered by each particle in the fixed order of its links. D §3, eq. 2.
 #import shared/item
 #import shared/step_params
-
-struct LinkSpring {
-    rest_length: f32,   // [m]
-    stiffness: f32,     // [N/m]
-}
+#import struct/LinkSpring
 
 @group(0) @binding(2) var<storage, read> positions: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read> velocities: array<vec4<f32>>;

@@ -2,7 +2,7 @@
 // take it back where it is too much. One colour per dispatch.
 #import shared/item
 #import shared/span
-#import shared/limit
+#import struct/Limit
 #import shared/pair
 
 @group(0) @binding(2) var<storage, read> limits: array<Limit>;

@@ -1,4 +1,6 @@
-//! Imports: a line `#import shared/name` stands for the text of that file, once per kernel.
+//! Imports: a line `#import shared/name` stands for the text of that file, `#import struct/Name` for that struct; once per kernel.
+
+use crate::structs;
 
 macro_rules! shared {
     ($($name:literal),* $(,)?) => {
@@ -7,27 +9,18 @@ macro_rules! shared {
 }
 
 const SHARED: &[(&str, &str)] = &shared![
-    "attachment",
-    "contact",
     "elongation",
     "item",
-    "limit",
-    "map_box",
     "map_planes",
-    "midpoint",
     "over_long",
     "pair",
     "point",
     "polish",
-    "probe",
     "quad",
     "reduction",
     "response",
-    "seam_pair",
     "span",
-    "status",
     "step_params",
-    "strand",
     "vertices",
 ];
 
@@ -52,8 +45,9 @@ fn append(source: &str, seen: &mut Vec<&'static str>, text: &mut String) {
             Some(name) => {
                 let (name, shared) = SHARED
                     .iter()
+                    .chain(structs::WGSL)
                     .find(|(known, _)| *known == name.trim())
-                    .unwrap_or_else(|| panic!("wgsl imports {name}, which is not among the shared files"));
+                    .unwrap_or_else(|| panic!("wgsl imports {name}, which is neither a shared file nor a struct"));
                 if !seen.contains(name) {
                     seen.push(name);
                     append(shared, seen, text);
