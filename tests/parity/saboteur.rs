@@ -88,7 +88,7 @@ const SPARED: &[(&str, Kind, &[&str])] = &[
         "with nothing to change, to divide or to blend the answer is nothing either",
         Kind::Border,
         &[
-            "a.w + b.w >= 0.0",
+            "weight_second >= 0.0",
             "approach <= wanted",
             "b.touching >= 0.0",
             "chord_length >=",
@@ -161,7 +161,7 @@ fn is_found(kernel: Kernel, cases: &[Case], source: &str) -> Option<bool> {
 /// What to change in kernels whose own lines have no mistake that is found.
 fn other_sabotage(kernel: Kernel, source: &str) -> Option<String> {
     let (from, to) = match kernel {
-        Kernel::StateCopy => ("= velocities[i];", "= -velocities[i];"),
+        Kernel::StateCopy => ("vec4<f32>(velocity_of(i)", "vec4<f32>(-velocity_of(i)"),
         Kernel::LimitZero => (", -dot(", ", dot("),
         _ => return None,
     };

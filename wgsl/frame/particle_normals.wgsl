@@ -2,21 +2,21 @@
 #import shared/item
 #import shared/step_params
 #import shared/quad
+#import shared/particles reads positions
 
-@group(0) @binding(2) var<storage, read> positions: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> quads: array<vec4<u32>>;
-@group(0) @binding(4) var<storage, read> particle_quad_offsets: array<u32>;
-@group(0) @binding(5) var<storage, read> particle_quads: array<u32>;
-@group(0) @binding(6) var<storage, read_write> normals: array<vec4<f32>>;
+@group(0) var<storage, read> quads: array<vec4<u32>>;
+@group(0) var<storage, read> particle_quad_offsets: array<u32>;
+@group(0) var<storage, read> particle_quads: array<u32>;
+@group(0) var<storage, read_write> normals: array<vec4<f32>>;
 
 fn area_vector(corners: vec4<u32>) -> vec3<f32> {
-    let a = positions[corners.x].xyz;
-    let b = positions[corners.y].xyz;
-    let c = positions[corners.z].xyz;
+    let a = position_of(corners.x);
+    let b = position_of(corners.y);
+    let c = position_of(corners.z);
     if corners.w == NO_CORNER {
         return cross(b - a, c - a);
     }
-    return cross(c - a, positions[corners.w].xyz - b);
+    return cross(c - a, position_of(corners.w) - b);
 }
 
 @compute @workgroup_size(64)

@@ -21,8 +21,8 @@ struct Colours {
     @location(1) velocity: vec4<f32>,
 }
 
-@group(0) @binding(0) var<uniform> map_box: MapBox;
-@group(0) @binding(1) var<uniform> camera: Side;
+@group(0) var<uniform> map_box: MapBox;
+@group(0) var<uniform> camera: Side;
 
 fn project(position: vec3<f32>, normal: vec3<f32>) -> vec4<f32> {
     let surface = position + normal * camera.thickness;

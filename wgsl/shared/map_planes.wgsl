@@ -8,9 +8,9 @@
 #import shared/point
 #import struct/MapBox
 
-@group(0) @binding(6) var<uniform> map_box: MapBox;
-@group(0) @binding(7) var depth_map: texture_depth_2d_array;
-@group(0) @binding(8) var normal_map: texture_2d_array<f32>;
+@group(0) var<uniform> map_box: MapBox;
+@group(0) var depth_map: texture_depth_2d_array;
+@group(0) var normal_map: texture_2d_array<f32>;
 
 const FRONT: i32 = 0;
 const BACK: i32 = 1;

@@ -2,5 +2,5 @@
 #import struct/Polish
 #import struct/PolishState
 
-@group(0) @binding(1) var<uniform> polish: Polish;
-@group(0) @binding(2) var<storage, read_write> polish_state: PolishState;
+@group(0) var<uniform> polish: Polish;
+@group(0) var<storage, read_write> polish_state: PolishState;

@@ -3,4 +3,4 @@
 
 const COULOMB: u32 = 0u;
 
-@group(0) @binding(0) var<uniform> step: StepParams;
+@group(0) var<uniform> step: StepParams;

@@ -1,4 +1,4 @@
 // The vertices of a body.
 #import struct/Vertices
 
-@group(0) @binding(0) var<uniform> vertices: Vertices;
+@group(0) var<uniform> vertices: Vertices;

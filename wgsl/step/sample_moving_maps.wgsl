@@ -3,8 +3,8 @@
 #import shared/map_planes
 #import struct/Lag
 
-@group(0) @binding(1) var<uniform> lag: Lag;
-@group(0) @binding(9) var velocity_map: texture_2d_array<f32>;
+@group(0) var<uniform> lag: Lag;
+@group(0) var velocity_map: texture_2d_array<f32>;
 
 fn start_lag() -> f32 {
     return lag.start;

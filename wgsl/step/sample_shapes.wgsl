@@ -6,7 +6,7 @@
 const CAPSULE: u32 = 1u;
 const PLANE: u32 = 2u;
 
-@group(0) @binding(6) var<storage, read> shapes: array<Shape>;
+@group(0) var<storage, read> shapes: array<Shape>;
 
 // More than all of a way.
 const NEVER: f32 = 2.0;
