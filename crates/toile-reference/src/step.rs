@@ -53,3 +53,17 @@ pub use sample_shapes::sample_shapes;
 pub use spring_forces::spring_forces;
 pub use warm_start::warm_start;
 pub use wind_forces::wind_forces;
+
+use crate::Particles;
+use glam::Vec3;
+use toile_model::{Model, StepSettings};
+
+/// Force on each particle [N] before the bodies answer, shape [particle_count]: that of the springs, and on it what the scene has.
+pub fn forces(particles: &Particles, model: &Model, settings: &StepSettings) -> Vec<Vec3> {
+    let mut forces = spring_forces(particles, &model.links, settings);
+    if let Some(wind) = &settings.wind {
+        let winds = quad_wind(particles, &model.quads, &model.particle_quads, wind, settings.dt);
+        wind_forces(&mut forces, &winds, &model.quads, &model.particle_quads);
+    }
+    forces
+}
