@@ -1,5 +1,6 @@
 //! When each need of the kernel table holds.
 
+use crate::step_params;
 use toile_kernels::Need;
 use toile_model::{Model, StepSettings};
 use toile_scene::Rule;
@@ -49,6 +50,8 @@ impl<'a> Needs<'a> {
             Need::Nothing => true,
             // What a body has is no need of a cloth.
             Need::Joints | Need::Morphs => false,
+            // No pass hangs on whether shapes are sampled after maps.
+            Need::Number(name) => step_params(model, settings, false).has(name),
             Need::Wind => settings.wind.is_some(),
             Need::Body => maps != Maps::None || shapes,
             Need::StillMaps => maps == Maps::Still,

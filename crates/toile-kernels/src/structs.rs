@@ -50,6 +50,20 @@ macro_rules! shared_structs {
             pub struct $name {
                 $($(#[doc = $field_doc])+ pub $field: rust_type!($kind),)+
             }
+
+            impl $name {
+                /// Whether the field of a name is other than zero.
+                ///
+                /// # Panics
+                /// When there is none of that name.
+                pub fn has(&self, name: &str) -> bool {
+                    let zero = Self::default();
+                    match name {
+                        $(stringify!($field) => self.$field != zero.$field,)+
+                        _ => panic!("{} has no field {name}", stringify!($name)),
+                    }
+                }
+            }
         )+
 
         /// Name for the import and WGSL of each.

@@ -59,6 +59,8 @@ pub enum Domain {
 pub enum Need {
     /// Nothing.
     Nothing,
+    /// A number of the step, by its name in [`StepParams`](crate::structs::StepParams), that is other than zero.
+    Number(&'static str),
     /// Air around the cloth.
     Wind,
     /// Any body.
@@ -117,7 +119,7 @@ pub struct Row {
 }
 
 macro_rules! kernels {
-    ($($(#[$doc:meta])* $kernel:ident $folder:literal $name:literal $stage:ident $domain:ident $need:ident $([$($constant:literal = $value:literal),*])?;)*) => {
+    ($($(#[$doc:meta])* $kernel:ident $folder:literal $name:literal $stage:ident $domain:ident $need:ident $(($number:literal))? $([$($constant:literal = $value:literal),*])?;)*) => {
         /// A WGSL entry point.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Kernel {
@@ -130,7 +132,7 @@ macro_rules! kernels {
                 kernel: Kernel::$kernel,
                 stage: Stage::$stage,
                 domain: Domain::$domain,
-                need: Need::$need,
+                need: Need::$need $(($number))?,
                 cpu_constants: &[$($(($constant, $value)),*)?],
             },)*
         ];
