@@ -123,7 +123,7 @@ fn load(model: &Model, wind: &Wind) -> DVec3 {
 
 #[test]
 fn the_momentum_gained_is_the_sum_of_drag_and_lift_of_all_quads() {
-    let wind = Wind { velocity: dvec3(0.4, 0.9, -0.7), drag: 1.1, lift: 0.6 };
+    let wind = Wind { drag: 1.1, lift: 0.6, ..Wind::new(dvec3(0.4, 0.9, -0.7)) };
     let settings = Settings { safety: 0.05, ..settings(wind, DVec3::ZERO, 0.0) };
     let crumple = |model: &mut Model| {
         let random = &mut Random::new(3);

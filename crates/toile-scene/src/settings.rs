@@ -91,6 +91,25 @@ impl Wind {
     pub fn new(velocity: DVec3) -> Self {
         Self { velocity, drag: 1.17, lift: 1.17 }
     }
+
+    /// The numbers beside the velocity, by the names that scenes give them.
+    pub const NUMBERS: &[AirNumber] = &[
+        AirNumber { name: "drag", range: 0.0..=100.0, unit: "", of: |wind| &mut wind.drag },
+        AirNumber { name: "lift", range: 0.0..=100.0, unit: "", of: |wind| &mut wind.lift },
+    ];
+}
+
+/// A number of the air.
+#[derive(Clone, Debug)]
+pub struct AirNumber {
+    /// Its name in a scene.
+    pub name: &'static str,
+    /// What it may be.
+    pub range: RangeInclusive<f64>,
+    /// Its unit; empty is 1.
+    pub unit: &'static str,
+    /// Where it is kept.
+    pub of: fn(&mut Wind) -> &mut f64,
 }
 
 /// What keeps the cloth from stretching like rubber.

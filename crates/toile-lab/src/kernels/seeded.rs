@@ -237,7 +237,7 @@ fn step_settings(variant: Variant) -> StepSettings {
     let base = StepSettings {
         dt: 1.0 / 700.0,
         damping: 0.7,
-        wind: Some(Wind { velocity: WIND, drag: 1.1, lift: 0.6 }),
+        wind: Some(air(WIND, variant)),
         push_speed: 1.5,
         pressing: 200.0,
         sweeps: 1,
@@ -255,7 +255,7 @@ fn step_settings(variant: Variant) -> StepSettings {
             law: Friction::Papers { velocity_kept: 0.7, force_removed: 0.4 },
             reflection: 0.3,
             gravity: vec3(0.3, -9.81, 0.1),
-            wind: Some(Wind { velocity: -4.0 * WIND, drag: 0.4, lift: 1.7 }),
+            wind: Some(air(-4.0 * WIND, variant)),
             ..base
         },
         Variant::Weightless => StepSettings {
@@ -267,6 +267,16 @@ fn step_settings(variant: Variant) -> StepSettings {
             ..base
         },
     }
+}
+
+/// Air of which every number is other than zero.
+fn air(velocity: DVec3, variant: Variant) -> Wind {
+    let random = &mut Random::new(variant as u64);
+    let mut wind = Wind::new(velocity);
+    for number in Wind::NUMBERS {
+        *(number.of)(&mut wind) = f64::from(random.between(0.4, 1.7));
+    }
+    wind
 }
 
 fn contact(random: &mut Random) -> Contact {
