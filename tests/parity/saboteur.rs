@@ -68,7 +68,6 @@ const SPARED: &[(&str, Kind, &[&str])] = &[
     ("room for more than there is", Kind::Constant, &["const STRAND_PARTICLES: u32 = 513u"]),
     ("the program sets it", Kind::Constant, &["override LANES: u32 = 65u"]),
     ("no impulse or pull of nothing changes anything", Kind::Constant, &["impulse == 1e9", "pull != 1e9"]),
-    ("it is written before it is read", Kind::Constant, &["var area_vector = vec3<f32>(1e9)"]),
     ("a part of a way beyond all of it is never reached", Kind::Constant, &["const NEVER: f32 = 3.0"]),
     ("zero, or equal, has been answered before", Kind::Border, &["return turn >= 0.0", "return one.distance <="]),
     ("of two that are alike in all either may answer", Kind::Border, &["one.velocity - other.velocity) >= 0.0"]),

@@ -1,8 +1,8 @@
 // The force of the air on each quad as on a flat plate: drag along the relative wind, lift across it. W §2.2.
 #import shared/item
 #import shared/step_params
-#import shared/quad
-#import shared/particles reads positions velocities
+#import shared/area
+#import shared/particles reads velocities
 
 @group(0) var<storage, read> quads: array<vec4<u32>>;
 @group(0) var<storage, read> particle_quad_offsets: array<u32>;
@@ -22,20 +22,15 @@ fn quad_wind(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgrou
         return;
     }
     let corners = quads[i];
-    let a = position_of(corners.x);
-    let b = position_of(corners.y);
-    let c = position_of(corners.z);
     var velocity = (velocity_of(corners.x) + velocity_of(corners.y)) + velocity_of(corners.z);
     var mass = (mass_share(corners.x) + mass_share(corners.y)) + mass_share(corners.z);
-    var area_vector = vec3<f32>(0.0);
     if corners.w == NO_CORNER {
         velocity = velocity * (1.0 / 3.0);
-        area_vector = cross(b - a, c - a) * 0.5;
     } else {
         velocity = (velocity + velocity_of(corners.w)) * 0.25;
         mass = mass + mass_share(corners.w);
-        area_vector = cross(c - a, position_of(corners.w) - b) * 0.5;
     }
+    let area_vector = doubled_area(corners) * 0.5;
     let wind = step.wind - velocity;
     let speed = length(wind);
     let area = length(area_vector);

@@ -14,6 +14,7 @@ macro_rules! shared {
 }
 
 const SHARED: &[(&str, &str)] = &shared![
+    "area",
     "elongation",
     "item",
     "map_planes",
