@@ -63,17 +63,21 @@ impl Seeds {
 
     /// Input on which `kernel` works on `items` items.
     pub fn input(&self, kernel: Kernel, items: u32, variant: Variant) -> Input {
-        let seed = (self.seed << 40) ^ (u64::from(items) << 16) | (kernel as u64) << 4 | variant as u64;
-        let random = &mut Random::new(seed);
+        // By its name, not its place in the table: a new kernel leaves the input of all others as it is.
+        let name = kernel.name().bytes().fold(0u64, |sum, byte| sum.wrapping_mul(31).wrapping_add(u64::from(byte)));
+        let random = &mut Random::new((self.seed << 40) ^ (u64::from(items) << 16) ^ (name << 4) ^ variant as u64);
         let domain = TABLE.iter().find(|row| row.kernel == kernel).expect("every kernel has a row").domain;
         let counts = counts(domain, items);
         let settings = step_settings(variant);
         let contacts: Vec<Contact> = (0..counts.particles).map(|_| contact(random)).collect();
-        let particles = particles(random, &contacts);
+        let mut particles = particles(random, &contacts);
         let (mut span, limits, seam_pairs) = pairs(random, &particles, &counts, domain);
         let (strands, strand_particles, strand_lengths) = strands(random, &particles, &counts, domain);
         if domain == Domain::StrandColour {
             span = counts.others..counts.others + items;
+            // Whole paths of the longest strand are pinned.
+            let first = strands[counts.others as usize].particles.start as usize;
+            strand_particles[first..first + 40].iter().for_each(|i| particles.inverse_masses[*i as usize] = 0.0);
         }
         let quads = quads(random, &counts);
         let midpoints = Midpoints {
@@ -140,6 +144,15 @@ impl Seeds {
         if kernel == Kernel::LongestLimit {
             let status = frame::limit_status(&input.particles.positions, &input.model.limits, input.settings.aim());
             input.status.elongation_max = status.elongation_max.to_bits();
+        }
+        if kernel == Kernel::SeamStatus && variant == Variant::Coulomb {
+            let gap = |pair: &SeamPair| {
+                let [a, b] = pair.ends.map(|end| input.particles.positions[end as usize]);
+                // What is no number comes last.
+                a.distance(b).max(0.0)
+            };
+            // The first is the widest.
+            input.model.seam_pairs.sort_by(|one, other| gap(other).total_cmp(&gap(one)));
         }
         if kernel == Kernel::MeasureExcess {
             // An infinite elongation would be the largest, whatever the kernel does.
@@ -591,8 +604,9 @@ fn place_at_the_edges(random: &mut Random, input: &mut Input) {
                 let mut ended = input.shapes.iter().filter(|shape| shape.kind == ShapeKind::Capsule);
                 let shape = ended.next().expect("there is a capsule");
                 let end = shape.axis + shape.axis.normalize() * (shape.radius * random.between(1.05, 1.4));
-                *position = shape.centre + end + random.vector(0.3 * shape.radius);
-                *velocity = shape.velocity - end * (random.between(0.3, 1.0) / input.settings.dt);
+                *position = shape.centre + end + random.vector(1.5 * shape.radius);
+                let way = shape.centre + shape.axis - *position;
+                *velocity = shape.velocity + way * (random.between(0.3, 1.5) / input.settings.dt);
             }
             // As near to two of them.
             9 => *position = vec3(MIRROR.x, MIRROR.y, MIRROR.z + random.between(-0.1, 0.1)),
