@@ -33,6 +33,7 @@ pub fn step_params(model: &Model, settings: &StepSettings, after_maps: bool) -> 
         wind: wind.velocity.as_vec3(),
         drag: wind.drag as f32,
         lift: wind.lift as f32,
+        pressure: wind.pressure as f32,
         thickness: settings.thickness,
         guard_way: settings.guard_way(),
         aim: settings.aim(),

@@ -120,6 +120,8 @@ shared_structs! {
         drag: f32,
         /// Lift coefficient [1].
         lift: f32,
+        /// How much more the air presses on the inside of the cloth than on its outside [Pa].
+        pressure: f32,
         /// Distance kept from the bodies [m].
         thickness: f32,
         /// How much the guard shortens a spring at once [m].

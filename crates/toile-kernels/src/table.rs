@@ -167,6 +167,8 @@ kernels! {
     QuadWind "step" "quad_wind" Step Quad Wind;
     /// Each particle takes its share of the wind on its quads.
     WindForces "step" "wind_forces" Step Particle Wind;
+    /// Each particle takes its share of the pressure on its quads.
+    PressureForces "step" "pressure_forces" Step Particle Number("pressure");
     /// Reaction of the body to the pressing force. W eq. 16.
     Reaction "step" "reaction" Step Particle Body;
     /// Velocities from forces. W eq. 3.
