@@ -213,15 +213,3 @@ fn kernel_interfaces() {
     }
     insta::assert_snapshot!(text);
 }
-
-#[test]
-fn struct_layouts() {
-    let mut text = String::new();
-    for Layout { name, span, fields } in for_every_struct!(encase_layouts) {
-        writeln!(text, "{name}, {span} bytes").expect("text");
-        for (field, offset) in fields {
-            writeln!(text, "  {offset:>3} {field}").expect("text");
-        }
-    }
-    insta::assert_snapshot!(text);
-}

@@ -3,16 +3,16 @@
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use toile_gpu::{Pass, Plan};
+use toile_gpu::{Maps, Pass, Plan};
 use toile_kernels::{Kernel, TABLE};
 use toile_lab::fixtures::{GARMENTS, SCENES, garment, scene, settings, shapes, sheet_model};
-use toile_model::{Maps, Model, Needs, StepSettings};
+use toile_model::{Model, StepSettings};
 use toile_scene::{Body, Polish, Rule, Scene, Settings, Wind};
 
 fn plan(model: &Model, settings: &StepSettings, bodies: &[Body]) -> Plan {
     let maps = if bodies.iter().any(|body| matches!(body, Body::Mesh(_))) { Maps::Still } else { Maps::None };
     let shapes = bodies.iter().any(|body| matches!(body, Body::Shape(_)));
-    Plan::new(model, &Needs::new(model, settings, maps, shapes), settings)
+    Plan::new(model, settings, maps, shapes)
 }
 
 fn plan_of_scene(scene: &Scene) -> Plan {

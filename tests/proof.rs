@@ -141,7 +141,7 @@ fn the_histogram_of_a_kernel_sees_a_flipped_sign() {
         histogram.expect("the device answers").expect("it compiles")
     };
     assert!(of(|source| source).words() > 700, "three variants of 65 particles");
-    let broken = of(|source| source.replace("velocities[i].xyz * step.dt", "velocities[i].xyz * -step.dt"));
+    let broken = of(|source| source.replace("velocity_of(i) * step.dt", "velocity_of(i) * -step.dt"));
     assert!(!broken.is_equal(), "{broken:?}");
     assert!(of(|source| source).is_equal());
 }

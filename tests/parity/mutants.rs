@@ -107,12 +107,14 @@ fn constants(code: &str) -> Vec<Change> {
 }
 
 fn indices(code: &str) -> Vec<Change> {
+    // What stands in brackets, and what a function is asked of.
     let mut open = Vec::new();
     let mut found = Vec::new();
     for (place, sign) in code.char_indices() {
         match sign {
-            '[' => open.push(place),
-            ']' if open.pop().is_some() => found.push((place, place, " + 1".to_owned(), Kind::Index)),
+            '[' => open.push(true),
+            '(' => open.push(code[..place].ends_with("_of")),
+            ']' | ')' if open.pop() == Some(true) => found.push((place, place, " + 1".to_owned(), Kind::Index)),
             _ => {}
         }
     }

@@ -68,7 +68,9 @@ const SPARED: &[(&str, Kind, &[&str])] = &[
     ("room for more than there is", Kind::Constant, &["const STRAND_PARTICLES: u32 = 513u"]),
     ("the program sets it", Kind::Constant, &["override LANES: u32 = 65u"]),
     ("no impulse or pull of nothing changes anything", Kind::Constant, &["impulse == 1e9", "pull != 1e9"]),
-    ("it is written before it is read", Kind::Constant, &["var area_vector = vec3<f32>(1e9)"]),
+    ("a part of a way beyond all of it is never reached", Kind::Constant, &["const NEVER: f32 = 3.0"]),
+    ("zero, or equal, has been answered before", Kind::Border, &["return turn >= 0.0", "return one.distance <="]),
+    ("of two that are alike in all either may answer", Kind::Border, &["one.velocity - other.velocity) >= 0.0"]),
     ("more than 0 is a hit", Kind::Constant, &["velocity_back, 1.5)", "velocity_front, 1.5)"]),
     (
         "where one camera sees nothing the other sees nothing",
@@ -85,7 +87,7 @@ const SPARED: &[(&str, Kind, &[&str])] = &[
         "with nothing to change, to divide or to blend the answer is nothing either",
         Kind::Border,
         &[
-            "a.w + b.w >= 0.0",
+            "weight_second >= 0.0",
             "approach <= wanted",
             "b.touching >= 0.0",
             "chord_length >=",
@@ -97,9 +99,9 @@ const SPARED: &[(&str, Kind, &[&str])] = &[
             "elongation >= 0.0",
             "excess >= 0.0",
             "gap >= 0.0",
-            "met_length >= 0.0",
             "normal_force <= 0.0",
             "normal_length >= 0.0",
+            "outward_length >= 0.0",
             "outside >= 0.0",
             "predicted_length >= 0.0",
             "predicted_length >= attachment.max_length",
@@ -107,6 +109,8 @@ const SPARED: &[(&str, Kind, &[&str])] = &[
             "predicted_length >= target_length",
             "probe.hit >= 0.0",
             "returned >= wanted",
+            "seen.hit >= 0.0",
+            "start_across) >= shape.radius",
             "speed >= step.hold_speed",
             "speed >= stopped",
             "through <= 0.0",
@@ -119,11 +123,12 @@ const SPARED: &[(&str, Kind, &[&str])] = &[
         "none of these numbers lies on the border to the last bit",
         Kind::Border,
         &[
+            "abs(along) < 1.0",
             "abs(cosine) <= 0.3",
             "abs(next.z - column.front) < abs(",
             "column.front - start.z < start.z",
             "step.dt <= step.contact_margin",
-            "distance <= nearest.distance",
+            "nearest.distance <= seen.distance",
             "distance_front > distance_back",
             "elongation * step.aim >=",
             "elongation >= polish.target_elongation",
@@ -155,7 +160,7 @@ fn is_found(kernel: Kernel, cases: &[Case], source: &str) -> Option<bool> {
 /// What to change in kernels whose own lines have no mistake that is found.
 fn other_sabotage(kernel: Kernel, source: &str) -> Option<String> {
     let (from, to) = match kernel {
-        Kernel::StateCopy => ("= velocities[i];", "= -velocities[i];"),
+        Kernel::StateCopy => ("vec4<f32>(velocity_of(i)", "vec4<f32>(-velocity_of(i)"),
         Kernel::LimitZero => (", -dot(", ", dot("),
         _ => return None,
     };

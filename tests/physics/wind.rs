@@ -1,10 +1,10 @@
-//! Wind on the device: drag, lift, and what they do to a sheet.
+//! The air on the device: drag, lift, pressure, and what they do to a sheet.
 
 use glam::{DVec2, DVec3, dvec3};
 use toile_gpu::Solver;
 use toile_lab::Random;
-use toile_lab::fixtures::sheet_settings;
-use toile_model::{Model, NO_CORNER, StepSettings};
+use toile_lab::fixtures::{scene, sheet_settings};
+use toile_model::{Link, Model, NO_CORNER, StepSettings};
 use toile_scene::{AIR_DENSITY, Pin, Rule, Settings, Sheet, Wind};
 use toile_workspace::gpu;
 
@@ -123,7 +123,7 @@ fn load(model: &Model, wind: &Wind) -> DVec3 {
 
 #[test]
 fn the_momentum_gained_is_the_sum_of_drag_and_lift_of_all_quads() {
-    let wind = Wind { velocity: dvec3(0.4, 0.9, -0.7), drag: 1.1, lift: 0.6 };
+    let wind = Wind { drag: 1.1, lift: 0.6, ..Wind::new(dvec3(0.4, 0.9, -0.7)) };
     let settings = Settings { safety: 0.05, ..settings(wind, DVec3::ZERO, 0.0) };
     let crumple = |model: &mut Model| {
         let random = &mut Random::new(3);
@@ -171,5 +171,69 @@ fn a_flag_in_light_wind_hangs_along_gravity_and_wind_together() {
         let span = end[110 + column] - end[column];
         let found = span.z.atan2(-span.y);
         assert!((found - tilt).abs() < 0.02 * tilt, "column {column}: {found} rad, not {tilt}");
+    }
+}
+
+/// Air that only presses, as a scene says it.
+fn pressing(pressure: &str) -> Wind {
+    let air = format!("{{ velocity = [0, 0, 0], drag = 0, lift = 0, pressure = {pressure} }}");
+    scene("hang", &[("wind", &air)]).settings.wind.expect("the scene has air")
+}
+
+/// The rim of a sheet and its area decide what a pressure does to all of it, however it bulges: p times the area that the rim spans.
+#[test]
+fn the_momentum_gained_under_pressure_is_that_of_the_flat_area() {
+    for pressure in ["20", "-5"] {
+        let wind = pressing(pressure);
+        let bulge = |model: &mut Model| {
+            for (i, position) in model.positions.iter_mut().enumerate() {
+                let [x, y] = [i % 11, i / 11].map(|place| place as f32 / 10.0);
+                position.z += 0.3 * (x * (1.0 - x) * y * (1.0 - y)).sqrt();
+            }
+        };
+        let mut run = Run::new(&sheet(DVec3::X, DVec3::Y, Vec::new()), &settings(wind, DVec3::ZERO, 0.0), bulge);
+        run.step(1);
+        let dt = f64::from(run.settings.dt);
+        let gained: DVec3 = run.velocities().iter().zip(&run.model.masses).map(|(v, m)| *v * f64::from(*m)).sum();
+        // 0.5 m × 0.5 m, with its outside along +z.
+        let expected = DVec3::Z * (wind.pressure * 0.25 * dt);
+        let error = (gained - expected).length() / expected.length();
+        assert!(error < 1e-4, "{pressure} Pa: gained {gained}, not {expected}");
+    }
+}
+
+/// A strip that is held at both its ends stands as an arc of radius R, and its springs carry T = p·R·width.
+#[test]
+fn a_strip_under_pressure_stands_as_an_arc() {
+    let (wind, width) = (pressing("10"), 0.05);
+    let pins = [0, 1].into_iter().flat_map(|column| [0, 20].map(|row| Pin { column, row })).collect();
+    let strip = Sheet { columns: 2, rows: 21, size: DVec2::new(width, 0.5), ..sheet(DVec3::X, DVec3::Y, pins) };
+    let mut settings = settings(wind, DVec3::ZERO, 8.0);
+    settings.fabric.bend_stiffness = 0.0;
+    settings.fabric.shear_stiffness = 0.0;
+    let mut run = Run::new(&strip, &settings, |_| ());
+    for _ in 0..240 {
+        run.frame();
+    }
+    assert!(run.velocities().iter().all(|v| v.length() < 1e-3), "it stands still");
+    let end = run.positions();
+    let sag = end[20].z;
+    let radius = (0.25 * 0.25 + sag * sag) / (2.0 * sag);
+    let centre = dvec3(0.0, 0.25, sag - radius);
+    assert!(sag > 0.05, "it stands out by {sag} m");
+    for row in 0..21 {
+        let found = (end[2 * row] - centre).length();
+        assert!((found - radius).abs() < 0.002 * radius, "row {row}: {found} m from the centre, not {radius}");
+    }
+    for row in 0..20 {
+        let mut tension = 0.0;
+        for i in [2 * row, 2 * row + 1] {
+            let next = |link: &&Link| link.other as usize == i + 2;
+            let link = run.model.links.row(i).iter().find(next).expect("a spring along the strip");
+            let excess = (end[i + 2] - end[i]).length() - f64::from(link.rest_length);
+            tension += f64::from(link.stiffness) * excess;
+        }
+        let expected = wind.pressure * radius * width;
+        assert!((tension - expected).abs() < 0.01 * expected, "row {row}: {tension} N, not {expected}");
     }
 }

@@ -1,10 +1,10 @@
 // The first of the structural and shear springs with the largest elongation.
 #import shared/item
-#import shared/status
+#import struct/Status
 #import shared/elongation
 #import shared/step_params
 
-@group(0) @binding(4) var<storage, read_write> status: Status;
+@group(0) var<storage, read_write> status: Status;
 
 @compute @workgroup_size(64)
 fn longest_limit(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {

@@ -1,13 +1,12 @@
 // The handover from the open to the sewn model: the particles that a seam joined become one, with their mass, their
 // centre of mass and their momentum.
 #import shared/item
+#import shared/particles writes positions velocities
 
-@group(0) @binding(0) var<storage, read> open_positions: array<vec4<f32>>;
-@group(0) @binding(1) var<storage, read> open_velocities: array<vec4<f32>>;
-@group(0) @binding(2) var<storage, read> member_offsets: array<u32>;
-@group(0) @binding(3) var<storage, read> members: array<u32>;
-@group(0) @binding(4) var<storage, read_write> positions: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read_write> velocities: array<vec4<f32>>;
+@group(0) var<storage, read> open_positions: array<vec4<f32>>;
+@group(0) var<storage, read> open_velocities: array<vec4<f32>>;
+@group(0) var<storage, read> member_offsets: array<u32>;
+@group(0) var<storage, read> members: array<u32>;
 
 @compute @workgroup_size(64)
 fn merge_particles(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
@@ -26,6 +25,6 @@ fn merge_particles(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_wo
         position = position + open_positions[member].xyz * mass;
         velocity = velocity + open_velocities[member].xyz * mass;
     }
-    positions[i] = vec4<f32>(position / total_mass, positions[i].w);
-    velocities[i] = vec4<f32>(velocity / total_mass, velocities[i].w);
+    set_position(i, position / total_mass);
+    set_velocity(i, velocity / total_mass);
 }

@@ -1,23 +1,12 @@
 // Unit normals out of the cloth, from the area vectors of the quads around each particle.
 #import shared/item
 #import shared/step_params
-#import shared/quad
+#import shared/area
 
-@group(0) @binding(2) var<storage, read> positions: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> quads: array<vec4<u32>>;
-@group(0) @binding(4) var<storage, read> particle_quad_offsets: array<u32>;
-@group(0) @binding(5) var<storage, read> particle_quads: array<u32>;
-@group(0) @binding(6) var<storage, read_write> normals: array<vec4<f32>>;
-
-fn area_vector(corners: vec4<u32>) -> vec3<f32> {
-    let a = positions[corners.x].xyz;
-    let b = positions[corners.y].xyz;
-    let c = positions[corners.z].xyz;
-    if corners.w == NO_CORNER {
-        return cross(b - a, c - a);
-    }
-    return cross(c - a, positions[corners.w].xyz - b);
-}
+@group(0) var<storage, read> quads: array<vec4<u32>>;
+@group(0) var<storage, read> particle_quad_offsets: array<u32>;
+@group(0) var<storage, read> particle_quads: array<u32>;
+@group(0) var<storage, read_write> normals: array<vec4<f32>>;
 
 @compute @workgroup_size(64)
 fn particle_normals(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
@@ -28,7 +17,7 @@ fn particle_normals(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_w
     var sum = vec3<f32>(0.0);
     let end = particle_quad_offsets[i + 1u];
     for (var k = particle_quad_offsets[i]; k < end; k++) {
-        sum = sum + area_vector(quads[particle_quads[k]]);
+        sum = sum + doubled_area(quads[particle_quads[k]]);
     }
     let area = length(sum);
     var normal = vec3<f32>(0.0, 1.0, 0.0);

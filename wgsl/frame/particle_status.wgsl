@@ -1,13 +1,12 @@
 // Counts particles that are not finite or run away, finds the largest speed and sums the kinetic energy of each workgroup.
 #import shared/item
 #import shared/step_params
-#import shared/status
+#import struct/Status
 #import shared/reduction
+#import shared/particles reads positions velocities
 
-@group(0) @binding(2) var<storage, read> positions: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> velocities: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read_write> status: Status;
-@group(0) @binding(5) var<storage, read_write> energy_partials: array<f32>;
+@group(0) var<storage, read_write> status: Status;
+@group(0) var<storage, read_write> energy_partials: array<f32>;
 
 // No cloth moves faster than this [m/s]: a particle that does counts as not finite, before it is.
 const RUNAWAY_SPEED: f32 = 1000.0;
@@ -26,19 +25,19 @@ fn particle_status(
     let i = item_index(id, groups);
     var energy = 0.0;
     if i < step.particle_count {
-        let position = positions[i];
-        let velocity = velocities[i];
+        let position = position_of(i);
+        let velocity = velocity_of(i);
         let finite = is_finite(position.x) && is_finite(position.y) && is_finite(position.z)
             && is_finite(velocity.x) && is_finite(velocity.y) && is_finite(velocity.z);
-        let speed_squared = dot(velocity.xyz, velocity.xyz);
+        let speed_squared = dot(velocity, velocity);
         if finite && speed_squared < RUNAWAY_SPEED * RUNAWAY_SPEED {
             let speed = bitcast<u32>(sqrt(speed_squared));
             // Few are faster than what is known already, so few wait for the one word.
             if speed > atomicLoad(&status.speed_max) {
                 atomicMax(&status.speed_max, speed);
             }
-            if position.w > 0.0 {
-                energy = 0.5 * (velocity.w * speed_squared);
+            if inverse_mass_of(i) > 0.0 {
+                energy = 0.5 * (mass_of(i) * speed_squared);
             }
         } else {
             atomicAdd(&status.non_finite_count, 1u);

@@ -1,9 +1,9 @@
 // The kinetic energy of all workgroups. One workgroup.
-#import shared/status
+#import struct/Status
 #import shared/reduction
 
-@group(0) @binding(0) var<storage, read> energy_partials: array<f32>;
-@group(0) @binding(1) var<storage, read_write> status: Status;
+@group(0) var<storage, read> energy_partials: array<f32>;
+@group(0) var<storage, read_write> status: Status;
 
 @compute @workgroup_size(64)
 fn total_energy(@builtin(local_invocation_index) local: u32) {

@@ -1,20 +1,15 @@
 // Bind positions and normals as the morph targets of a pose change them.
 #import shared/item
 #import shared/vertices
+#import struct/Displacement
 
-struct Displacement {
-    position: vec3<f32>,
-    morph: u32,             // which target
-    normal: vec3<f32>,
-}
-
-@group(0) @binding(1) var<storage, read> bind_positions: array<vec4<f32>>;
-@group(0) @binding(2) var<storage, read> bind_normals: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> morph_offsets: array<u32>;
-@group(0) @binding(4) var<storage, read> displacements: array<Displacement>;
-@group(0) @binding(5) var<storage, read> morph_weights: array<f32>;
-@group(0) @binding(6) var<storage, read_write> morphed_positions: array<vec4<f32>>;
-@group(0) @binding(7) var<storage, read_write> morphed_normals: array<vec4<f32>>;
+@group(0) var<storage, read> bind_positions: array<vec4<f32>>;
+@group(0) var<storage, read> bind_normals: array<vec4<f32>>;
+@group(0) var<storage, read> morph_offsets: array<u32>;
+@group(0) var<storage, read> displacements: array<Displacement>;
+@group(0) var<storage, read> morph_weights: array<f32>;
+@group(0) var<storage, read_write> morphed_positions: array<vec4<f32>>;
+@group(0) var<storage, read_write> morphed_normals: array<vec4<f32>>;
 
 @compute @workgroup_size(64)
 fn morph_body(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {

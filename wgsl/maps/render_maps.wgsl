@@ -1,13 +1,9 @@
 // Draws the surfaces of the bodies into the depth and normal maps, and those of moving bodies into the velocity map too, seen by
 // the front or the back camera. W §4.1-4.3.
-#import shared/map_box
+#import struct/MapBox
+#import struct/Side
 
 const FRONT: u32 = 0u;
-
-struct Side {
-    side: u32,          // 0 front, 1 back
-    thickness: f32,     // offset of the surface along its normals [m]
-}
 
 struct Texel {
     @builtin(position) position: vec4<f32>,
@@ -25,8 +21,8 @@ struct Colours {
     @location(1) velocity: vec4<f32>,
 }
 
-@group(0) @binding(0) var<uniform> map_box: MapBox;
-@group(0) @binding(1) var<uniform> camera: Side;
+@group(0) var<uniform> map_box: MapBox;
+@group(0) var<uniform> camera: Side;
 
 fn project(position: vec3<f32>, normal: vec3<f32>) -> vec4<f32> {
     let surface = position + normal * camera.thickness;

@@ -2,26 +2,16 @@
 // hold where a joint scales.
 #import shared/item
 #import shared/vertices
+#import struct/Influence
+#import struct/Joint
 
-struct Influence {
-    joint: u32,
-    weight: f32,
-}
-
-// From bind space to the world: the first three rows of the matrix [m].
-struct Joint {
-    row_x: vec4<f32>,
-    row_y: vec4<f32>,
-    row_z: vec4<f32>,
-}
-
-@group(0) @binding(1) var<storage, read> morphed_positions: array<vec4<f32>>;
-@group(0) @binding(2) var<storage, read> morphed_normals: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> influence_offsets: array<u32>;
-@group(0) @binding(4) var<storage, read> influences: array<Influence>;
-@group(0) @binding(5) var<storage, read> joints: array<Joint>;
-@group(0) @binding(6) var<storage, read_write> body_positions: array<vec4<f32>>;
-@group(0) @binding(7) var<storage, read_write> body_normals: array<vec4<f32>>;
+@group(0) var<storage, read> morphed_positions: array<vec4<f32>>;
+@group(0) var<storage, read> morphed_normals: array<vec4<f32>>;
+@group(0) var<storage, read> influence_offsets: array<u32>;
+@group(0) var<storage, read> influences: array<Influence>;
+@group(0) var<storage, read> joints: array<Joint>;
+@group(0) var<storage, read_write> body_positions: array<vec4<f32>>;
+@group(0) var<storage, read_write> body_normals: array<vec4<f32>>;
 
 @compute @workgroup_size(64)
 fn skin_body(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {

@@ -2,9 +2,9 @@
 #import shared/item
 #import shared/vertices
 
-@group(0) @binding(1) var<storage, read> last_positions: array<vec4<f32>>;
-@group(0) @binding(2) var<storage, read> surface_positions: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read_write> surface_velocities: array<vec4<f32>>;
+@group(0) var<storage, read> last_positions: array<vec4<f32>>;
+@group(0) var<storage, read> surface_positions: array<vec4<f32>>;
+@group(0) var<storage, read_write> surface_velocities: array<vec4<f32>>;
 
 @compute @workgroup_size(64)
 fn vertex_velocities(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {

@@ -1,10 +1,10 @@
 // How far a structural or shear spring is stretched.
-#import shared/limit
+#import struct/Limit
+#import shared/particles reads positions
 
-@group(0) @binding(2) var<storage, read> limits: array<Limit>;
-@group(0) @binding(3) var<storage, read> positions: array<vec4<f32>>;
+@group(0) var<storage, read> limits: array<Limit>;
 
 fn elongation_of(i: u32) -> f32 {
     let limit = limits[i];
-    return length(positions[limit.second].xyz - positions[limit.first].xyz) / limit.rest_length - 1.0;
+    return length(position_of(limit.second) - position_of(limit.first)) / limit.rest_length - 1.0;
 }

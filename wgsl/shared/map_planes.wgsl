@@ -6,11 +6,11 @@
 // The maps show the surfaces at one time, and the surfaces move straight on: at `lag` seconds before that time a surface stood
 // back by its velocity. Whoever imports this says how: `surface_velocity`, `drift` and the two lags of a step.
 #import shared/point
-#import shared/map_box
+#import struct/MapBox
 
-@group(0) @binding(6) var<uniform> map_box: MapBox;
-@group(0) @binding(7) var depth_map: texture_depth_2d_array;
-@group(0) @binding(8) var normal_map: texture_2d_array<f32>;
+@group(0) var<uniform> map_box: MapBox;
+@group(0) var depth_map: texture_depth_2d_array;
+@group(0) var normal_map: texture_2d_array<f32>;
 
 const FRONT: i32 = 0;
 const BACK: i32 = 1;

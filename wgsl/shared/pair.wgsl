@@ -1,20 +1,17 @@
 // Two particles that a limit or a seam pulls together.
-@group(0) @binding(3) var<storage, read> positions: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read_write> velocities: array<vec4<f32>>;
+#import shared/particles reads positions writes velocities
 
 fn inverse_mass_sum_of(first: u32, second: u32) -> f32 {
-    return positions[first].w + positions[second].w;
+    return inverse_mass_of(first) + inverse_mass_of(second);
 }
 
 // From the first to the second after a move of `dt` [m].
 fn after_move(first: u32, second: u32, dt: f32) -> vec3<f32> {
-    return (positions[second].xyz - positions[first].xyz) + (velocities[second].xyz - velocities[first].xyz) * dt;
+    return (position_of(second) - position_of(first)) + (velocity_of(second) - velocity_of(first)) * dt;
 }
 
 // Gives both an impulse towards each other [N·s].
 fn pull_together(first: u32, second: u32, impulse: vec3<f32>) {
-    let velocity_a = velocities[first];
-    let velocity_b = velocities[second];
-    velocities[first] = vec4<f32>(velocity_a.xyz + impulse * positions[first].w, velocity_a.w);
-    velocities[second] = vec4<f32>(velocity_b.xyz - impulse * positions[second].w, velocity_b.w);
+    set_velocity(first, velocity_of(first) + impulse * inverse_mass_of(first));
+    set_velocity(second, velocity_of(second) - impulse * inverse_mass_of(second));
 }

@@ -1,6 +1,6 @@
 // How a point answers a surface. W §5, eq. 15.
 #import shared/step_params
-#import shared/probe
+#import struct/Probe
 
 // Whether a point is in contact with its probe at the end of the coming move.
 fn touches(velocity: vec3<f32>, probe: Probe) -> bool {

@@ -2,10 +2,10 @@
 #import shared/item
 #import shared/step_params
 #import shared/span
-#import shared/seam_pair
+#import struct/SeamPair
 #import shared/pair
 
-@group(0) @binding(2) var<storage, read> seam_pairs: array<SeamPair>;
+@group(0) var<storage, read> seam_pairs: array<SeamPair>;
 
 @compute @workgroup_size(64)
 fn close_seams(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
@@ -18,7 +18,7 @@ fn close_seams(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgr
     if !(inverse_mass_sum > 0.0) {
         return;
     }
-    let gap = length(positions[pair.second].xyz - positions[pair.first].xyz);
+    let gap = length(position_of(pair.second) - position_of(pair.first));
     let target_length = max(gap - pair.closing_speed * step.dt, 0.0);
     let predicted = after_move(pair.first, pair.second, step.dt);
     let predicted_length = length(predicted);

@@ -3,16 +3,15 @@
 // no more than would stop the midpoint alone: contacts bring no energy in. D §6, W eq. 15.
 #import shared/item
 #import shared/response
-#import shared/contact
-#import shared/midpoint
+#import struct/Contact
+#import struct/Midpoint
+#import shared/particles writes positions velocities
 
-@group(0) @binding(2) var<storage, read> midpoints: array<Midpoint>;
-@group(0) @binding(3) var<storage, read> probes: array<Probe>;
-@group(0) @binding(4) var<storage, read> particle_quad_offsets: array<u32>;
-@group(0) @binding(5) var<storage, read> particle_quads: array<u32>;
-@group(0) @binding(6) var<storage, read_write> positions: array<vec4<f32>>;
-@group(0) @binding(7) var<storage, read_write> velocities: array<vec4<f32>>;
-@group(0) @binding(8) var<storage, read_write> contacts: array<Contact>;
+@group(0) var<storage, read> midpoints: array<Midpoint>;
+@group(0) var<storage, read> probes: array<Probe>;
+@group(0) var<storage, read> particle_quad_offsets: array<u32>;
+@group(0) var<storage, read> particle_quads: array<u32>;
+@group(0) var<storage, read_write> contacts: array<Contact>;
 
 // Corners of a quad: the share of a midpoint's motion that one corner can have alone.
 const CORNER_COUNT: f32 = 4.0;
@@ -23,16 +22,15 @@ fn collide(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups
     if i >= step.particle_count {
         return;
     }
-    let position = positions[i];
-    let velocity = velocities[i];
+    let velocity = velocity_of(i);
     let probe = probes[i];
-    let touching = touches(velocity.xyz, probe);
+    let touching = touches(velocity, probe);
     var sum = vec3<f32>(0.0);
     var count = 0.0;
     if touching {
-        let gain = missing_speed(velocity.xyz, probe);
+        let gain = missing_speed(velocity, probe);
         if gain > 0.0 {
-            sum = sum + change_by(gain, velocity.xyz, probe);
+            sum = sum + change_by(gain, velocity, probe);
             count = count + 1.0;
         }
     }
@@ -43,9 +41,9 @@ fn collide(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups
         let middle = midpoints[quad].velocity;
         if touches(middle, quad_probe) {
             let asked = CORNER_COUNT * missing_speed(middle, quad_probe);
-            let gain = min(missing_speed(velocity.xyz, quad_probe), asked);
+            let gain = min(missing_speed(velocity, quad_probe), asked);
             if gain > 0.0 {
-                sum = sum + change_by(gain, velocity.xyz, quad_probe);
+                sum = sum + change_by(gain, velocity, quad_probe);
                 count = count + 1.0;
             }
         }
@@ -55,10 +53,10 @@ fn collide(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups
         contact = Contact(probe.normal, 1.0, probe.velocity, 0.0);
     }
     contacts[i] = contact;
-    if !(position.w > 0.0) {
+    if !(inverse_mass_of(i) > 0.0) {
         return;
     }
-    var answered = velocity.xyz;
+    var answered = velocity;
     if count > 0.0 {
         answered = answered + sum / count;
     }
@@ -69,7 +67,7 @@ fn collide(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups
         }
         // The way out moves the particle but gives it no velocity, so that it does not bounce off.
         let depth = max(-probe.distance, 0.0);
-        positions[i] = vec4<f32>(position.xyz + probe.normal * min(depth, step.push_speed * step.dt), position.w);
+        set_position(i, position_of(i) + probe.normal * min(depth, step.push_speed * step.dt));
     }
-    velocities[i] = vec4<f32>(answered, velocity.w);
+    set_velocity(i, answered);
 }

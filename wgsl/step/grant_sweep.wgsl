@@ -2,8 +2,8 @@
 // workgroups. A step that may have no more and is still above the target has missed it. One workgroup.
 #import shared/polish
 
-@group(0) @binding(3) var<storage, read> sweep_workgroups: array<vec4<u32>>;
-@group(0) @binding(4) var<storage, read_write> sweep_dispatches: array<vec4<u32>>;
+@group(0) var<storage, read> sweep_workgroups: array<vec4<u32>>;
+@group(0) var<storage, read_write> sweep_dispatches: array<vec4<u32>>;
 
 @compute @workgroup_size(64)
 fn grant_sweep(@builtin(local_invocation_index) local: u32) {

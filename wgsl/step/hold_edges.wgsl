@@ -2,17 +2,11 @@
 // not slide away; each of their particles stays free to go where its seam wants it. One workgroup per label.
 #import shared/step_params
 #import shared/reduction
+#import struct/Hold
+#import shared/particles reads positions writes velocities
 
-struct Hold {
-    first: u32,
-    count: u32,
-    height: f32,    // [m]
-}
-
-@group(0) @binding(2) var<storage, read> positions: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> holds: array<Hold>;
-@group(0) @binding(4) var<storage, read> held_particles: array<u32>;
-@group(0) @binding(5) var<storage, read_write> velocities: array<vec4<f32>>;
+@group(0) var<storage, read> holds: array<Hold>;
+@group(0) var<storage, read> held_particles: array<u32>;
 
 @compute @workgroup_size(64)
 fn hold_edges(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
@@ -21,8 +15,8 @@ fn hold_edges(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation
     var rise = 0.0;
     for (var k = local; k < hold.count; k += 64u) {
         let particle = held_particles[hold.first + k];
-        height = height + positions[particle].y;
-        rise = rise + velocities[particle].y;
+        height = height + position_of(particle).y;
+        rise = rise + velocity_of(particle).y;
     }
     let height_sum = workgroup_sum(local, height);
     let rise_sum = workgroup_sum(local, rise);
@@ -38,6 +32,8 @@ fn hold_edges(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation
     let change = speed - rise_sum / f32(hold.count);
     for (var k = local; k < hold.count; k += 64u) {
         let particle = held_particles[hold.first + k];
-        velocities[particle].y = velocities[particle].y + change;
+        var velocity = velocity_of(particle);
+        velocity.y = velocity.y + change;
+        set_velocity(particle, velocity);
     }
 }

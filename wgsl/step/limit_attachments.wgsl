@@ -2,12 +2,11 @@
 // between them is long is removed from its velocity. Kim, Chentanez and Müller 2012. Pins stay where they are.
 #import shared/item
 #import shared/step_params
-#import shared/attachment
+#import struct/Attachment
+#import shared/particles reads positions writes velocities
 
-@group(0) @binding(2) var<storage, read> attachment_offsets: array<u32>;
-@group(0) @binding(3) var<storage, read> attachments: array<Attachment>;
-@group(0) @binding(4) var<storage, read> positions: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read_write> velocities: array<vec4<f32>>;
+@group(0) var<storage, read> attachment_offsets: array<u32>;
+@group(0) var<storage, read> attachments: array<Attachment>;
 
 @compute @workgroup_size(64)
 fn limit_attachments(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
@@ -15,20 +14,19 @@ fn limit_attachments(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_
     if i >= step.particle_count {
         return;
     }
-    let position = positions[i];
-    if !(position.w > 0.0) {
+    if !(inverse_mass_of(i) > 0.0) {
         return;
     }
-    var velocity = velocities[i];
+    let position = position_of(i);
+    var velocity = velocity_of(i);
     let end = attachment_offsets[i + 1u];
     for (var k = attachment_offsets[i]; k < end; k++) {
         let attachment = attachments[k];
-        let predicted = (positions[attachment.pin].xyz - position.xyz) - velocity.xyz * step.dt;
+        let predicted = (position_of(attachment.pin) - position) - velocity * step.dt;
         let predicted_length = length(predicted);
         if predicted_length > attachment.max_length {
-            let change = predicted * ((predicted_length - attachment.max_length) / (predicted_length * step.dt));
-            velocity = vec4<f32>(velocity.xyz + change, velocity.w);
+            velocity = velocity + predicted * ((predicted_length - attachment.max_length) / (predicted_length * step.dt));
         }
     }
-    velocities[i] = velocity;
+    set_velocity(i, velocity);
 }

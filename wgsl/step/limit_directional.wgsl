@@ -1,9 +1,10 @@
 // Rule Directional: the rear end of an over-long spring takes the axial velocity of its front end, seen along v_dir, so
 // that it catches up. W §3.2, eq. 6. One colour per dispatch.
+#import shared/step_params
 #import shared/over_long
-#import shared/contact
+#import struct/Contact
 
-@group(0) @binding(5) var<storage, read> contacts: array<Contact>;
+@group(0) var<storage, read> contacts: array<Contact>;
 
 fn object_velocity(first: u32, second: u32) -> vec3<f32> {
     let a = contacts[first];
@@ -37,8 +38,8 @@ fn limit_directional(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_
         return;
     }
     let cosine = dot(ends.difference, direction) / (ends.length * speed);
-    let speed_first = dot(velocities[ends.first].xyz, ends.axis);
-    let speed_second = dot(velocities[ends.second].xyz, ends.axis);
+    let speed_first = dot(velocity_of(ends.first), ends.axis);
+    let speed_second = dot(velocity_of(ends.second), ends.axis);
     if abs(cosine) < 0.3 {
         average_along_axis(ends);
     } else if cosine > 0.0 {

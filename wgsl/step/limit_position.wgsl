@@ -1,10 +1,10 @@
 // Rule Position: both ends of an over-long spring are moved together after the step. Provot; W §3.1. One colour per dispatch.
 #import shared/item
 #import shared/span
-#import shared/limit
+#import struct/Limit
+#import shared/particles writes positions
 
-@group(0) @binding(2) var<storage, read> limits: array<Limit>;
-@group(0) @binding(3) var<storage, read_write> positions: array<vec4<f32>>;
+@group(0) var<storage, read> limits: array<Limit>;
 
 @compute @workgroup_size(64)
 fn limit_position(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
@@ -13,17 +13,19 @@ fn limit_position(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_wor
         return;
     }
     let limit = limits[span.first + i];
-    let a = positions[limit.first];
-    let b = positions[limit.second];
-    let inverse_mass_sum = a.w + b.w;
+    let weight_first = inverse_mass_of(limit.first);
+    let weight_second = inverse_mass_of(limit.second);
+    let inverse_mass_sum = weight_first + weight_second;
     if !(inverse_mass_sum > 0.0) {
         return;
     }
-    let difference = b.xyz - a.xyz;
+    let first = position_of(limit.first);
+    let second = position_of(limit.second);
+    let difference = second - first;
     let current_length = length(difference);
     if current_length > limit.max_length {
         let change = difference * ((current_length - limit.max_length) / (current_length * inverse_mass_sum));
-        positions[limit.first] = vec4<f32>(a.xyz + change * a.w, a.w);
-        positions[limit.second] = vec4<f32>(b.xyz - change * b.w, b.w);
+        set_position(limit.first, first + change * weight_first);
+        set_position(limit.second, second - change * weight_second);
     }
 }

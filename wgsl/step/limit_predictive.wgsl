@@ -3,11 +3,11 @@
 #import shared/item
 #import shared/step_params
 #import shared/span
-#import shared/limit
+#import struct/Limit
 #import shared/pair
 
-@group(0) @binding(2) var<storage, read> limits: array<Limit>;
-@group(0) @binding(5) var<storage, read_write> limit_impulses: array<f32>;
+@group(0) var<storage, read> limits: array<Limit>;
+@group(0) var<storage, read_write> limit_impulses: array<f32>;
 
 @compute @workgroup_size(64)
 fn limit_predictive(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {

@@ -2,13 +2,12 @@
 // each strand; it works on copies in its own memory. One colour per dispatch.
 #import shared/step_params
 #import shared/span
-#import shared/strand
+#import struct/Strand
+#import shared/particles reads positions writes velocities
 
-@group(0) @binding(2) var<storage, read> strands: array<Strand>;
-@group(0) @binding(3) var<storage, read> strand_particles: array<u32>;
-@group(0) @binding(4) var<storage, read> strand_lengths: array<f32>;
-@group(0) @binding(5) var<storage, read> positions: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read_write> velocities: array<vec4<f32>>;
+@group(0) var<storage, read> strands: array<Strand>;
+@group(0) var<storage, read> strand_particles: array<u32>;
+@group(0) var<storage, read> strand_lengths: array<f32>;
 
 // Of a workgroup. What comes out is the same with any number of them.
 override LANES: u32 = 64u;
@@ -107,8 +106,7 @@ fn limit_strands(
     let strand = strands[span.first + item];
     for (var k = lane; k < strand.count; k += LANES) {
         let i = strand_particles[strand.first + k];
-        let position = positions[i];
-        places[k] = vec4<f32>(position.xyz + velocities[i].xyz * step.dt, position.w);
+        places[k] = vec4<f32>(position_of(i) + velocity_of(i) * step.dt, inverse_mass_of(i));
         shifts[k] = vec3<f32>(0.0);
     }
     workgroupBarrier();
@@ -148,7 +146,6 @@ fn limit_strands(
     }
     for (var k = lane; k < strand.count; k += LANES) {
         let i = strand_particles[strand.first + k];
-        let velocity = velocities[i];
-        velocities[i] = vec4<f32>(velocity.xyz + shifts[k] / step.dt, velocity.w);
+        set_velocity(i, velocity_of(i) + shifts[k] / step.dt);
     }
 }

@@ -9,7 +9,7 @@ fn limit_zero(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgro
     }
     let ends = ends_of(limits[span.first + i]);
     if ends.over_long {
-        change_along_axis(ends.first, ends.weight_first, ends.axis, -dot(velocities[ends.first].xyz, ends.axis));
-        change_along_axis(ends.second, ends.weight_second, ends.axis, -dot(velocities[ends.second].xyz, ends.axis));
+        change_along_axis(ends.first, ends.weight_first, ends.axis, -dot(velocity_of(ends.first), ends.axis));
+        change_along_axis(ends.second, ends.weight_second, ends.axis, -dot(velocity_of(ends.second), ends.axis));
     }
 }

@@ -1,19 +1,18 @@
 // The force of the air on each quad as on a flat plate: drag along the relative wind, lift across it. W §2.2.
 #import shared/item
 #import shared/step_params
-#import shared/quad
+#import shared/area
+#import shared/particles reads velocities
 
-@group(0) @binding(2) var<storage, read> positions: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> velocities: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> quads: array<vec4<u32>>;
-@group(0) @binding(5) var<storage, read> particle_quad_offsets: array<u32>;
-@group(0) @binding(6) var<storage, read_write> quad_winds: array<vec4<f32>>;
+@group(0) var<storage, read> quads: array<vec4<u32>>;
+@group(0) var<storage, read> particle_quad_offsets: array<u32>;
+@group(0) var<storage, read_write> quad_winds: array<vec4<f32>>;
 
 const AIR_DENSITY: f32 = 1.2;   // [kg/m³]
 
 // The part of a particle's mass that each of its quads carries.
 fn mass_share(particle: u32) -> f32 {
-    return velocities[particle].w / f32(particle_quad_offsets[particle + 1u] - particle_quad_offsets[particle]);
+    return mass_of(particle) / f32(particle_quad_offsets[particle + 1u] - particle_quad_offsets[particle]);
 }
 
 @compute @workgroup_size(64)
@@ -23,20 +22,15 @@ fn quad_wind(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgrou
         return;
     }
     let corners = quads[i];
-    let a = positions[corners.x].xyz;
-    let b = positions[corners.y].xyz;
-    let c = positions[corners.z].xyz;
-    var velocity = (velocities[corners.x].xyz + velocities[corners.y].xyz) + velocities[corners.z].xyz;
+    var velocity = (velocity_of(corners.x) + velocity_of(corners.y)) + velocity_of(corners.z);
     var mass = (mass_share(corners.x) + mass_share(corners.y)) + mass_share(corners.z);
-    var area_vector = vec3<f32>(0.0);
     if corners.w == NO_CORNER {
         velocity = velocity * (1.0 / 3.0);
-        area_vector = cross(b - a, c - a) * 0.5;
     } else {
-        velocity = (velocity + velocities[corners.w].xyz) * 0.25;
+        velocity = (velocity + velocity_of(corners.w)) * 0.25;
         mass = mass + mass_share(corners.w);
-        area_vector = cross(c - a, positions[corners.w].xyz - b) * 0.5;
     }
+    let area_vector = doubled_area(corners) * 0.5;
     let wind = step.wind - velocity;
     let speed = length(wind);
     let area = length(area_vector);

@@ -1,12 +1,11 @@
 // What a body answers to the force that presses a particle onto it. W §5, eq. 16.
 #import shared/item
 #import shared/step_params
-#import shared/contact
+#import struct/Contact
+#import shared/particles reads positions velocities
 
-@group(0) @binding(2) var<storage, read> positions: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> velocities: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> contacts: array<Contact>;
-@group(0) @binding(5) var<storage, read_write> forces: array<vec4<f32>>;
+@group(0) var<storage, read> contacts: array<Contact>;
+@group(0) var<storage, read_write> forces: array<vec4<f32>>;
 
 @compute @workgroup_size(64)
 fn reaction(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
@@ -15,7 +14,7 @@ fn reaction(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroup
         return;
     }
     let contact = contacts[i];
-    let inverse_mass = positions[i].w;
+    let inverse_mass = inverse_mass_of(i);
     if !(contact.touching > 0.0) || !(inverse_mass > 0.0) {
         return;
     }
@@ -27,7 +26,7 @@ fn reaction(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroup
     }
     var tangential = force - contact.normal * normal_force;
     if step.friction_law == COULOMB {
-        let relative = velocities[i].xyz - contact.velocity;
+        let relative = velocity_of(i) - contact.velocity;
         let rate = step.dt * inverse_mass;
         let sliding = (relative - contact.normal * dot(relative, contact.normal)) + tangential * rate;
         let speed = length(sliding);

@@ -1,15 +1,10 @@
 // What each point sees of moving bodies in the depth, normal and velocity maps, which show them at the end of the recorded
 // steps: in the steps before, every surface stands back by its velocity, so that no step sees it jump. W §4.3-4.4.
 #import shared/map_planes
+#import struct/Lag
 
-// How long before the time of the maps a step begins and ends.
-struct Lag {
-    start: f32,     // [s]
-    end: f32,       // [s]
-}
-
-@group(0) @binding(1) var<uniform> lag: Lag;
-@group(0) @binding(9) var velocity_map: texture_2d_array<f32>;
+@group(0) var<uniform> lag: Lag;
+@group(0) var velocity_map: texture_2d_array<f32>;
 
 fn start_lag() -> f32 {
     return lag.start;

@@ -1,21 +1,12 @@
 // What each point sees of the analytic shapes, exactly: the nearest of them answers, where it is nearer than what the point sees in the
 // maps. The whole way of the coming move is tested, relative to the shape: a point that would enter meets it where its way does.
 #import shared/point
-
-// A shape at the start of the step, going straight on to its end.
-struct Shape {
-    centre: vec3<f32>,      // [m]
-    radius: f32,            // with the thickness of the cloth [m]
-    velocity: vec3<f32>,    // [m/s]
-    kind: u32,
-    spin: vec3<f32>,        // angular velocity [rad/s]
-    axis: vec3<f32>,        // of a capsule from its centre to an end [m], of a plane its normal
-}
+#import struct/Shape
 
 const CAPSULE: u32 = 1u;
 const PLANE: u32 = 2u;
 
-@group(0) @binding(6) var<storage, read> shapes: array<Shape>;
+@group(0) var<storage, read> shapes: array<Shape>;
 
 // More than all of a way.
 const NEVER: f32 = 2.0;

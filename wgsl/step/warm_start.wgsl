@@ -2,11 +2,11 @@
 // take it back where it is too much. One colour per dispatch.
 #import shared/item
 #import shared/span
-#import shared/limit
+#import struct/Limit
 #import shared/pair
 
-@group(0) @binding(2) var<storage, read> limits: array<Limit>;
-@group(0) @binding(5) var<storage, read_write> limit_impulses: array<f32>;
+@group(0) var<storage, read> limits: array<Limit>;
+@group(0) var<storage, read_write> limit_impulses: array<f32>;
 
 // The largest part that cannot swing up, however slowly sweeps converge.
 const CARRIED: f32 = 0.5;
@@ -22,7 +22,7 @@ fn warm_start(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgro
         return;
     }
     let limit = limits[span.first + i];
-    let way = positions[limit.second].xyz - positions[limit.first].xyz;
+    let way = position_of(limit.second) - position_of(limit.first);
     let way_length = length(way);
     if way_length > 0.0 {
         pull_together(limit.first, limit.second, way * (impulse / way_length));

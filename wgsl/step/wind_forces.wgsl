@@ -3,11 +3,11 @@
 #import shared/step_params
 #import shared/quad
 
-@group(0) @binding(2) var<storage, read> quads: array<vec4<u32>>;
-@group(0) @binding(3) var<storage, read> quad_winds: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> particle_quad_offsets: array<u32>;
-@group(0) @binding(5) var<storage, read> particle_quads: array<u32>;
-@group(0) @binding(6) var<storage, read_write> forces: array<vec4<f32>>;
+@group(0) var<storage, read> quads: array<vec4<u32>>;
+@group(0) var<storage, read> quad_winds: array<vec4<f32>>;
+@group(0) var<storage, read> particle_quad_offsets: array<u32>;
+@group(0) var<storage, read> particle_quads: array<u32>;
+@group(0) var<storage, read_write> forces: array<vec4<f32>>;
 
 @compute @workgroup_size(64)
 fn wind_forces(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {

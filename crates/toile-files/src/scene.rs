@@ -25,8 +25,6 @@ use toile_scene::{
 /// Frames of a scene that does not say: two seconds at 60 per second.
 const FRAMES: u32 = 120;
 
-/// Drag and lift of the air.
-const WIND_COEFFICIENTS: RangeInclusive<f64> = 0.0..=100.0;
 /// What is a part of a whole.
 const PARTS: RangeInclusive<f64> = 0.0..=1.0;
 
@@ -144,12 +142,15 @@ fn convert_polish(toml: PolishToml, rule: Rule) -> Result<Polish, Found> {
 }
 
 fn convert_wind(toml: &WindToml) -> Result<Wind, Found> {
-    let default = Wind::new(vector("wind.velocity", toml.velocity)?);
-    Ok(Wind {
-        drag: within("wind.drag", toml.drag.unwrap_or(default.drag), WIND_COEFFICIENTS, "")?,
-        lift: within("wind.lift", toml.lift.unwrap_or(default.lift), WIND_COEFFICIENTS, "")?,
-        ..default
-    })
+    let mut wind = Wind::new(vector("wind.velocity", toml.velocity)?);
+    for (name, value) in &toml.numbers {
+        let Some(number) = Wind::NUMBERS.iter().find(|number| number.name == name) else {
+            let known: Vec<String> = Wind::NUMBERS.iter().map(|number| format!(", `{}`", number.name)).collect();
+            return Err(wrong("wind", format!("unknown field `{name}`, expected one of `velocity`{}", known.concat())));
+        };
+        *(number.of)(&mut wind) = within(&format!("wind.{name}"), *value, number.range.clone(), number.unit)?;
+    }
+    Ok(wind)
 }
 
 fn convert_sheet(index: usize, toml: &SheetToml, n: Option<u32>) -> Result<Sheet, Found> {

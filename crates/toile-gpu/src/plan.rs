@@ -1,11 +1,11 @@
 //! The passes that a model gets: the rows of the kernel table whose needs hold.
 
+use crate::needs::{Maps, Needs};
 use std::fmt;
 use std::ops::Range;
 use toile_kernels::structs::Span;
-use toile_kernels::{Domain, Kernel, Need, Row, Stage, TABLE, WORKGROUP_SIZE};
-use toile_model::{Maps, Model, Needs, StepSettings};
-use toile_scene::Rule;
+use toile_kernels::{Domain, Kernel, Row, Stage, TABLE, WORKGROUP_SIZE};
+use toile_model::{Model, StepSettings};
 
 /// Workgroups along one dimension that every device can dispatch.
 const WORKGROUPS_MAX: u32 = 65_535;
@@ -68,9 +68,14 @@ pub fn kernel_runs(passes: &[Pass]) -> Vec<KernelRuns> {
 }
 
 impl Plan {
-    /// The plan of a model.
-    pub fn new(model: &Model, needs: &Needs, settings: &StepSettings) -> Self {
-        let rows: Vec<&Row> = TABLE.iter().filter(|row| holds(row.need, needs)).collect();
+    /// The plan of a model, with or without maps and shapes around it.
+    ///
+    /// # Panics
+    /// When the rule of the settings is hierarchical and that of the model is not, or when there is a polish under a rule that is not
+    /// predictive.
+    pub fn new(model: &Model, settings: &StepSettings, maps: Maps, shapes: bool) -> Self {
+        let needs = Needs::new(model, settings, maps, shapes);
+        let rows: Vec<&Row> = TABLE.iter().filter(|row| needs.hold(row.need)).collect();
         let mut spans = Vec::new();
         let mut step = Vec::new();
         let mut frame = Vec::new();
@@ -143,33 +148,6 @@ impl Pass {
         let count = self.items.end - self.items.start;
         let groups = if self.workgroup_per_item { count } else { count.div_ceil(WORKGROUP_SIZE) };
         [groups.min(WORKGROUPS_MAX), groups.div_ceil(WORKGROUPS_MAX)]
-    }
-}
-
-/// Whether a row's need holds.
-fn holds(need: Need, needs: &Needs) -> bool {
-    match need {
-        Need::Nothing => true,
-        Need::Wind => needs.wind,
-        Need::Body => needs.body(),
-        Need::StillMaps => needs.maps == Maps::Still,
-        Need::MovingMaps => needs.maps == Maps::Moving,
-        // What a body has is no need of a cloth.
-        Need::Joints | Need::Morphs => false,
-        Need::Shapes => needs.shapes,
-        Need::Holds => needs.holds,
-        Need::Seams => needs.seams,
-        Need::Limits => needs.limits,
-        Need::RuleZero => needs.rule == Rule::Zero,
-        Need::RuleAverage => needs.rule == Rule::Average,
-        Need::RuleDirectional => needs.rule == Rule::Directional,
-        Need::RulePredictive => matches!(needs.rule, Rule::Predictive | Rule::Hierarchical),
-        Need::Attachments => needs.attachments,
-        Need::Strands => needs.rule == Rule::Hierarchical,
-        Need::Guard => needs.guard(),
-        Need::GuardOnBody => needs.guard() && needs.body(),
-        Need::RulePosition => needs.rule == Rule::Position,
-        Need::Polish => needs.polish,
     }
 }
 

@@ -4,11 +4,11 @@ use crate::buffers::{Buffers, Start, aligned, shape_entry};
 use crate::limits::check_limits;
 use crate::status::StatusReader;
 use crate::timing::{PassTime, Timer};
-use crate::{BodyMaps, GpuError, Pass, Plan, Program};
+use crate::{BodyMaps, GpuError, Maps, Pass, Plan, Program};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toile_kernels::{Kernel, Role};
-use toile_model::{Maps, Merge, Model, Needs, Status, StepSettings};
+use toile_model::{Merge, Model, Status, StepSettings};
 use toile_scene::Shape;
 use wgpu::util::DeviceExt;
 
@@ -92,7 +92,7 @@ impl Solver {
     /// [`GpuError::BufferTooLarge`] when the model does not fit the device, [`GpuError::LimitTooLow`] when the kernels do not.
     ///
     /// # Panics
-    /// As [`Needs::new`].
+    /// As [`Plan::new`].
     pub fn new(
         device: &wgpu::Device,
         model: &Model,
@@ -134,8 +134,7 @@ impl Solver {
             Some(maps) if maps.is_moving() => Maps::Moving,
             Some(_) => Maps::Still,
         };
-        let needs = Needs::new(model, settings, maps, !colliders.shapes.is_empty());
-        let plan = Plan::new(model, &needs, settings);
+        let plan = Plan::new(model, settings, maps, !colliders.shapes.is_empty());
         let programs: Vec<_> = plan.kernels().into_iter().map(|kernel| (kernel, program(kernel))).collect();
         let bindings = programs.iter().flat_map(|(_, program)| &program.interface().bindings);
         let start =

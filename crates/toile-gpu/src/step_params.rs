@@ -11,7 +11,7 @@ pub fn step_params(model: &Model, settings: &StepSettings, after_maps: bool) -> 
         Friction::Coulomb => (0, 0.0, 0.0),
         Friction::Papers { velocity_kept, force_removed } => (1, velocity_kept as f32, force_removed as f32),
     };
-    let still = Wind { velocity: DVec3::ZERO, drag: 0.0, lift: 0.0 };
+    let still = Wind { drag: 0.0, lift: 0.0, ..Wind::new(DVec3::ZERO) };
     let wind = settings.wind.unwrap_or(still);
     StepParams {
         gravity: settings.gravity,
@@ -33,6 +33,7 @@ pub fn step_params(model: &Model, settings: &StepSettings, after_maps: bool) -> 
         wind: wind.velocity.as_vec3(),
         drag: wind.drag as f32,
         lift: wind.lift as f32,
+        pressure: wind.pressure as f32,
         thickness: settings.thickness,
         guard_way: settings.guard_way(),
         aim: settings.aim(),

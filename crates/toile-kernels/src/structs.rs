@@ -1,306 +1,365 @@
-//! The structs that Rust and WGSL share. encase lays them out; a test compares each with naga's layout of the WGSL.
+//! The structs that Rust and WGSL share: each is written once, here. encase lays out the Rust, a compiler of WGSL the text that kernels
+//! import as `#import struct/Name`; a test compares both.
 
 use encase::ShaderType;
 use glam::{Vec3, Vec4};
 
-/// The numbers of one step, the same for every particle. `wgsl/shared/step_params.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct StepParams {
-    /// Gravity [m/s²].
-    pub gravity: Vec3,
-    /// Time step [s].
-    pub dt: f32,
-    /// Viscous damping rate [1/s].
-    pub damping: f32,
-    /// Largest speed on the way out of a body [m/s].
-    pub push_speed: f32,
-    /// Largest change of normal speed that friction counts [m/s].
-    pub pressing_speed: f32,
-    /// A point nearer than this is in contact [m].
-    pub contact_margin: f32,
-    /// C_refl of W eq. 15 [1].
-    pub reflection: f32,
-    /// 0 Coulomb, 1 the papers'.
-    pub friction_law: u32,
-    /// Coulomb's coefficient [1].
-    pub friction: f32,
-    /// C_fric of W eq. 15 [1].
-    pub velocity_kept: f32,
-    /// C_fric of W eq. 16 [1].
-    pub force_removed: f32,
-    /// Speed of a held edge towards its height, per metre from it [1/s].
-    pub hold_rate: f32,
-    /// Largest speed of a held edge towards its height [m/s].
-    pub hold_speed: f32,
-    /// Number of particles.
-    pub particle_count: u32,
-    /// Number of quads.
-    pub quad_count: u32,
-    /// 1: the whole way of a point is tested against the bodies.
-    pub swept: u32,
-    /// Velocity of the air [m/s].
-    pub wind: Vec3,
-    /// Drag coefficient of a plate across the wind [1].
-    pub drag: f32,
-    /// Lift coefficient [1].
-    pub lift: f32,
-    /// Distance kept from the bodies [m].
-    pub thickness: f32,
-    /// How much the guard shortens a spring at once [m].
-    pub guard_way: f32,
-    /// Part of the threshold that the limits hold [1].
-    pub aim: f32,
-    /// Number of structural and shear springs, whose limits are the first.
-    pub limit_count: u32,
-    /// 1: the probes already hold what the points see in the maps when the shapes are sampled.
-    pub after_maps: u32,
+/// What a word of the list below is in Rust.
+macro_rules! rust_type {
+    (f32) => {
+        f32
+    };
+    (u32) => {
+        u32
+    };
+    (vec3) => {
+        Vec3
+    };
+    (vec4) => {
+        Vec4
+    };
+    (atomic_u32) => {
+        u32
+    };
 }
 
-/// The part of an array that one dispatch works on. `wgsl/shared/span.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct Span {
-    /// First item.
-    pub first: u32,
-    /// Number of items.
-    pub count: u32,
-    /// Part of an excess that a pass of the guard removes [1]; no other kernel reads it.
-    pub share: f32,
+/// What it is in WGSL.
+macro_rules! wgsl_type {
+    (f32) => {
+        "f32"
+    };
+    (u32) => {
+        "u32"
+    };
+    (vec3) => {
+        "vec3<f32>"
+    };
+    (vec4) => {
+        "vec4<f32>"
+    };
+    (atomic_u32) => {
+        "atomic<u32>"
+    };
 }
 
-/// Rest length and stiffness of a link. `wgsl/step/spring_forces.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct LinkSpring {
-    /// Rest length [m].
-    pub rest_length: f32,
-    /// Stiffness [N/m].
-    pub stiffness: f32,
+macro_rules! shared_structs {
+    ($($(#[doc = $doc:literal])+ $name:ident { $($(#[doc = $field_doc:literal])+ $field:ident: $kind:ident,)+ })+) => {
+        $(
+            $(#[doc = $doc])+
+            #[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+            pub struct $name {
+                $($(#[doc = $field_doc])+ pub $field: rust_type!($kind),)+
+            }
+
+            impl $name {
+                /// Whether the field of a name is other than zero.
+                ///
+                /// # Panics
+                /// When there is none of that name.
+                pub fn has(&self, name: &str) -> bool {
+                    let zero = Self::default();
+                    match name {
+                        $(stringify!($field) => self.$field != zero.$field,)+
+                        _ => panic!("{} has no field {name}", stringify!($name)),
+                    }
+                }
+            }
+        )+
+
+        /// Name for the import and WGSL of each.
+        pub(crate) const WGSL: &[(&str, &str)] = &[$((
+            concat!("struct/", stringify!($name)),
+            concat!(
+                $("//", $doc, "\n",)+
+                "struct ", stringify!($name), " {\n",
+                $($("    //", $field_doc, "\n",)+ "    ", stringify!($field), ": ", wgsl_type!($kind), ",\n",)+
+                "}\n",
+            ),
+        )),+];
+    };
 }
 
-/// A unilateral maximum length. `wgsl/shared/limit.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct Limit {
-    /// One particle.
-    pub first: u32,
-    /// The other.
-    pub second: u32,
-    /// Rest length [m].
-    pub rest_length: f32,
-    /// Maximum length [m].
-    pub max_length: f32,
-}
+shared_structs! {
+    /// The numbers of one step, the same for every particle.
+    StepParams {
+        /// Gravity [m/s²].
+        gravity: vec3,
+        /// Time step [s].
+        dt: f32,
+        /// Viscous damping rate [1/s].
+        damping: f32,
+        /// Largest speed on the way out of a body [m/s].
+        push_speed: f32,
+        /// Largest change of normal speed that friction counts [m/s].
+        pressing_speed: f32,
+        /// A point nearer than this is in contact [m].
+        contact_margin: f32,
+        /// C_refl of W eq. 15 [1].
+        reflection: f32,
+        /// 0 Coulomb, 1 the papers'.
+        friction_law: u32,
+        /// Coulomb's coefficient [1].
+        friction: f32,
+        /// C_fric of W eq. 15 [1].
+        velocity_kept: f32,
+        /// C_fric of W eq. 16 [1].
+        force_removed: f32,
+        /// Speed of a held edge towards its height, per metre from it [1/s].
+        hold_rate: f32,
+        /// Largest speed of a held edge towards its height [m/s].
+        hold_speed: f32,
+        /// Number of particles.
+        particle_count: u32,
+        /// Number of quads.
+        quad_count: u32,
+        /// 1: the whole way of a point is tested against the bodies.
+        swept: u32,
+        /// Velocity of the air [m/s].
+        wind: vec3,
+        /// Drag coefficient of a plate across the wind [1].
+        drag: f32,
+        /// Lift coefficient [1].
+        lift: f32,
+        /// How much more the air presses on the inside of the cloth than on its outside [Pa].
+        pressure: f32,
+        /// Distance kept from the bodies [m].
+        thickness: f32,
+        /// How much the guard shortens a spring at once [m].
+        guard_way: f32,
+        /// Part of the threshold that the limits hold [1].
+        aim: f32,
+        /// Number of structural and shear springs, whose limits are the first.
+        limit_count: u32,
+        /// 1: the probes already hold what the points see in the maps when the shapes are sampled.
+        after_maps: u32,
+    }
 
-/// A line of cloth and the limits along it. `wgsl/shared/strand.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct Strand {
-    /// First of its particles.
-    pub first: u32,
-    /// Number of its particles.
-    pub count: u32,
-    /// First of its maximum lengths.
-    pub lengths: u32,
-    /// Number of levels: limits over 2, 4, 8… edges.
-    pub level_count: u32,
-}
+    /// The part of an array that one dispatch works on.
+    Span {
+        /// First item.
+        first: u32,
+        /// Number of items.
+        count: u32,
+        /// Part of an excess that a pass of the guard removes [1]; no other kernel reads it.
+        share: f32,
+    }
 
-/// A maximum distance of a particle from a pin. `wgsl/shared/attachment.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct Attachment {
-    /// The pinned particle.
-    pub pin: u32,
-    /// Maximum distance [m].
-    pub max_length: f32,
-}
+    /// Rest length and stiffness of a link.
+    LinkSpring {
+        /// Rest length [m].
+        rest_length: f32,
+        /// Stiffness [N/m].
+        stiffness: f32,
+    }
 
-/// Two particles that a seam pulls together. `wgsl/shared/seam_pair.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct SeamPair {
-    /// One particle.
-    pub first: u32,
-    /// The other.
-    pub second: u32,
-    /// Closing speed [m/s].
-    pub closing_speed: f32,
-}
+    /// A unilateral maximum length.
+    Limit {
+        /// One particle.
+        first: u32,
+        /// The other.
+        second: u32,
+        /// Rest length [m].
+        rest_length: f32,
+        /// Maximum length [m].
+        max_length: f32,
+    }
 
-/// The edges of one label, held at their mean height. `wgsl/step/hold_edges.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct Hold {
-    /// Where its particles begin among the held particles.
-    pub first: u32,
-    /// Number of its particles.
-    pub count: u32,
-    /// Their mean height [m].
-    pub height: f32,
-}
+    /// A line of cloth and the limits along it.
+    Strand {
+        /// First of its particles.
+        first: u32,
+        /// Number of its particles.
+        count: u32,
+        /// First of its maximum lengths.
+        lengths: u32,
+        /// Number of levels: limits over 1, 2, 4… edges.
+        level_count: u32,
+    }
 
-/// Mean of the corners of a quad. `wgsl/shared/midpoint.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct Midpoint {
-    /// Position [m].
-    pub position: Vec3,
-    /// Velocity [m/s].
-    pub velocity: Vec3,
-}
+    /// A maximum distance of a particle from a pin.
+    Attachment {
+        /// The pinned particle.
+        pin: u32,
+        /// Maximum distance [m].
+        max_length: f32,
+    }
 
-/// What a point sees of the bodies. `wgsl/shared/probe.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct Probe {
-    /// Unit normal out of the body.
-    pub normal: Vec3,
-    /// Distance to the surface, negative inside [m].
-    pub distance: f32,
-    /// Velocity of the surface [m/s].
-    pub velocity: Vec3,
-    /// 1 near enough to matter, 0 not.
-    pub hit: f32,
-}
+    /// Two particles that a seam pulls together.
+    SeamPair {
+        /// One particle.
+        first: u32,
+        /// The other.
+        second: u32,
+        /// Closing speed [m/s].
+        closing_speed: f32,
+    }
 
-/// What a particle touched. `wgsl/shared/contact.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct Contact {
-    /// Unit normal out of the body.
-    pub normal: Vec3,
-    /// 1 in contact, 0 not.
-    pub touching: f32,
-    /// Velocity of the body at the contact [m/s].
-    pub velocity: Vec3,
-    /// Fills the last word.
-    pub padding: f32,
-}
+    /// The edges of one label, held at their mean height.
+    Hold {
+        /// Where its particles begin among the held particles.
+        first: u32,
+        /// Number of its particles.
+        count: u32,
+        /// Their mean height [m].
+        height: f32,
+    }
 
-/// Where the two map cameras stand. `wgsl/shared/map_box.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct MapBox {
-    /// Left edge [m].
-    pub origin_x: f32,
-    /// Top edge [m].
-    pub origin_y: f32,
-    /// Edge length of a texel [m].
-    pub texel: f32,
-    /// Plane of the front camera [m].
-    pub z_front: f32,
-    /// Plane of the back camera [m].
-    pub z_back: f32,
-    /// Texels along x.
-    pub columns: u32,
-    /// Texels along y.
-    pub rows: u32,
-}
+    /// Mean of the corners of a quad.
+    Midpoint {
+        /// Position [m].
+        position: vec3,
+        /// Velocity [m/s].
+        velocity: vec3,
+    }
 
-/// Which camera draws, and how far the surface is offset. `wgsl/maps/render_maps.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct Side {
-    /// 0 front, 1 back.
-    pub side: u32,
-    /// Offset along the normals [m].
-    pub thickness: f32,
-}
+    /// What a point sees of the bodies.
+    Probe {
+        /// Unit normal out of the body.
+        normal: vec3,
+        /// Distance to the surface, negative inside [m].
+        distance: f32,
+        /// Velocity of the surface [m/s].
+        velocity: vec3,
+        /// 1 near enough to matter, 0 not.
+        hit: f32,
+    }
 
-/// An analytic shape during one step. `wgsl/step/sample_shapes.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct Shape {
-    /// Centre [m].
-    pub centre: Vec3,
-    /// Radius with the thickness of the cloth [m].
-    pub radius: f32,
-    /// Velocity [m/s].
-    pub velocity: Vec3,
-    /// What it is: the number of a `ShapeKind` of the model.
-    pub kind: u32,
-    /// Angular velocity [rad/s].
-    pub spin: Vec3,
-    /// Of a shape with a direction [m]; zero of a sphere.
-    pub axis: Vec3,
-}
+    /// What a particle touched.
+    Contact {
+        /// Unit normal out of the body.
+        normal: vec3,
+        /// 1 in contact, 0 not.
+        touching: f32,
+        /// Velocity of the body at the contact [m/s].
+        velocity: vec3,
+        /// Fills the last word.
+        padding: f32,
+    }
 
-/// How long before the time of the maps a step begins and ends. `wgsl/step/sample_moving_maps.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct Lag {
-    /// From the start of the step [s].
-    pub start: f32,
-    /// From its end [s].
-    pub end: f32,
-}
+    /// Where the two map cameras stand.
+    MapBox {
+        /// Left edge [m].
+        origin_x: f32,
+        /// Top edge [m].
+        origin_y: f32,
+        /// Edge length of a texel [m].
+        texel: f32,
+        /// Plane of the front camera [m].
+        z_front: f32,
+        /// Plane of the back camera [m].
+        z_back: f32,
+        /// Texels along x.
+        columns: u32,
+        /// Texels along y.
+        rows: u32,
+    }
 
-/// The vertices of a body. `wgsl/shared/vertices.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct Vertices {
-    /// Number of vertices.
-    pub count: u32,
-    /// 1 / time since the last pose, 0 when there was none [1/s].
-    pub rate: f32,
-}
+    /// Which camera draws, and how far the surface is offset.
+    Side {
+        /// 0 front, 1 back.
+        side: u32,
+        /// Offset along the normals [m].
+        thickness: f32,
+    }
 
-/// What one morph target does to one vertex. `wgsl/maps/morph_body.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct Displacement {
-    /// Displacement of the bind position.
-    pub position: Vec3,
-    /// Which target.
-    pub morph: u32,
-    /// Change of the bind normal.
-    pub normal: Vec3,
-}
+    /// An analytic shape at the start of a step, going straight on to its end.
+    Shape {
+        /// Centre [m].
+        centre: vec3,
+        /// Radius with the thickness of the cloth [m].
+        radius: f32,
+        /// Velocity [m/s].
+        velocity: vec3,
+        /// What it is: the number of a `ShapeKind` of the model.
+        kind: u32,
+        /// Angular velocity [rad/s].
+        spin: vec3,
+        /// Of a capsule from its centre to an end [m], of a plane its normal; zero of a sphere.
+        axis: vec3,
+    }
 
-/// The share that a joint has in a vertex. `wgsl/maps/skin_body.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct Influence {
-    /// Which joint.
-    pub joint: u32,
-    /// Share [1].
-    pub weight: f32,
-}
+    /// How long before the time of the maps a step begins and ends.
+    Lag {
+        /// From the start of the step [s].
+        start: f32,
+        /// From its end [s].
+        end: f32,
+    }
 
-/// First three rows of the matrix of a joint, from bind space to the world. `wgsl/maps/skin_body.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct Joint {
-    /// Row of x.
-    pub row_x: Vec4,
-    /// Row of y.
-    pub row_y: Vec4,
-    /// Row of z.
-    pub row_z: Vec4,
-}
+    /// The vertices of a body.
+    Vertices {
+        /// Number of vertices.
+        count: u32,
+        /// 1 / time since the last pose, 0 when there was none [1/s].
+        rate: f32,
+    }
 
-/// Further sweeps in the steps that need them. `wgsl/shared/polish.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct Polish {
-    /// Elongation that needs no further sweep [1].
-    pub target_elongation: f32,
-    /// At most so many further sweeps in a step.
-    pub sweeps: u32,
-}
+    /// What one morph target does to one vertex.
+    Displacement {
+        /// Displacement of the bind position.
+        position: vec3,
+        /// Which target.
+        morph: u32,
+        /// Change of the bind normal.
+        normal: vec3,
+    }
 
-/// What a polish knows. `wgsl/shared/polish.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct PolishState {
-    /// Bits of the largest elongation above the target [1]; 0: none.
-    pub elongation_max: u32,
-    /// Further sweeps of the present step.
-    pub granted: u32,
-    /// Further sweeps so far.
-    pub further_sweeps: u32,
-    /// Steps so far that ended above the target.
-    pub missed_steps: u32,
-}
+    /// The share that a joint has in a vertex.
+    Influence {
+        /// Which joint.
+        joint: u32,
+        /// Share [1].
+        weight: f32,
+    }
 
-/// What a frame reports. `wgsl/shared/status.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
-pub struct Status {
-    /// Particles that are not finite.
-    pub non_finite_count: u32,
-    /// `u32::MAX` minus the index of the first of them; 0: none.
-    pub first_non_finite: u32,
-    /// Bits of the largest speed [m/s].
-    pub speed_max: u32,
-    /// Bits of the largest elongation [1].
-    pub elongation_max: u32,
-    /// Limits that are exceeded.
-    pub over_long_count: u32,
-    /// `u32::MAX` minus the index of the limit that is exceeded the most; 0: none.
-    pub longest_limit: u32,
-    /// Bits of the largest seam gap [m].
-    pub seam_gap_max: u32,
-    /// Kinetic energy [J].
-    pub kinetic_energy: f32,
+    /// First three rows of the matrix of a joint, from bind space to the world.
+    Joint {
+        /// Row of x.
+        row_x: vec4,
+        /// Row of y.
+        row_y: vec4,
+        /// Row of z.
+        row_z: vec4,
+    }
+
+    /// Further sweeps in the steps that need them.
+    Polish {
+        /// Elongation that needs no further sweep [1].
+        target_elongation: f32,
+        /// At most so many further sweeps in a step.
+        sweeps: u32,
+    }
+
+    /// What a polish knows: the first two words are those of the present step, the others count from the start.
+    PolishState {
+        /// Bits of the largest elongation above the target [1]; 0: none.
+        elongation_max: atomic_u32,
+        /// Further sweeps of the present step.
+        granted: u32,
+        /// Further sweeps so far.
+        further_sweeps: u32,
+        /// Steps so far that ended above the target.
+        missed_steps: u32,
+    }
+
+    /// What a frame reports. Cleared to zero before the status kernels run. Positive floats keep their order as bits, so that integer atomics
+    /// find the largest, whatever the order of the invocations.
+    Status {
+        /// Particles that are not finite.
+        non_finite_count: atomic_u32,
+        /// 0xffffffff minus the index of the first of them, so that the largest is the first; 0: none.
+        first_non_finite: atomic_u32,
+        /// Bits of the largest speed [m/s].
+        speed_max: atomic_u32,
+        /// Bits of the largest elongation [1].
+        elongation_max: atomic_u32,
+        /// Limits that are exceeded.
+        over_long_count: atomic_u32,
+        /// 0xffffffff minus the index of the limit that is exceeded the most; 0: none.
+        longest_limit: atomic_u32,
+        /// Bits of the largest seam gap [m].
+        seam_gap_max: atomic_u32,
+        /// Kinetic energy [J].
+        kinetic_energy: f32,
+    }
 }

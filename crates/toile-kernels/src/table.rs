@@ -59,6 +59,8 @@ pub enum Domain {
 pub enum Need {
     /// Nothing.
     Nothing,
+    /// A number of the step, by its name in [`StepParams`](crate::structs::StepParams), that is other than zero.
+    Number(&'static str),
     /// Air around the cloth.
     Wind,
     /// Any body.
@@ -117,7 +119,7 @@ pub struct Row {
 }
 
 macro_rules! kernels {
-    ($($(#[$doc:meta])* $kernel:ident $folder:literal $name:literal $stage:ident $domain:ident $need:ident $([$($constant:literal = $value:literal),*])?;)*) => {
+    ($($(#[$doc:meta])* $kernel:ident $folder:literal $name:literal $stage:ident $domain:ident $need:ident $(($number:literal))? $([$($constant:literal = $value:literal),*])?;)*) => {
         /// A WGSL entry point.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Kernel {
@@ -130,7 +132,7 @@ macro_rules! kernels {
                 kernel: Kernel::$kernel,
                 stage: Stage::$stage,
                 domain: Domain::$domain,
-                need: Need::$need,
+                need: Need::$need $(($number))?,
                 cpu_constants: &[$($(($constant, $value)),*)?],
             },)*
         ];
@@ -165,6 +167,8 @@ kernels! {
     QuadWind "step" "quad_wind" Step Quad Wind;
     /// Each particle takes its share of the wind on its quads.
     WindForces "step" "wind_forces" Step Particle Wind;
+    /// Each particle takes its share of the pressure on its quads.
+    PressureForces "step" "pressure_forces" Step Particle Number("pressure");
     /// Reaction of the body to the pressing force. W eq. 16.
     Reaction "step" "reaction" Step Particle Body;
     /// Velocities from forces. W eq. 3.

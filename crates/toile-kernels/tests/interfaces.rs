@@ -48,3 +48,25 @@ fn a_kernel_has_at_most_one_buffer_with_entries() {
         assert!(count <= 1, "{} has {count} buffers with entries", row.kernel.name());
     }
 }
+
+/// A buffer that a kernel may write makes the device wait between its dispatches; one that it does not use takes a place.
+#[test]
+fn a_kernel_uses_what_it_binds_and_writes_what_it_may_write() {
+    use naga::valid::{Capabilities, GlobalUse, ValidationFlags, Validator};
+    for row in TABLE {
+        let name = row.kernel.name();
+        let module = naga::front::wgsl::parse_str(&row.kernel.source()).expect("it is WGSL");
+        let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
+        let info = validator.validate(&module).expect("it is valid");
+        for (handle, global) in module.global_variables.iter().filter(|(_, global)| global.binding.is_some()) {
+            let used = info.get_entry_point(0)[handle];
+            let global_name = global.name.as_deref().unwrap_or_default();
+            assert!(!used.is_empty(), "{name} does not use {global_name}");
+            if let naga::AddressSpace::Storage { access } = global.space {
+                let writes = used.intersects(GlobalUse::WRITE | GlobalUse::ATOMIC);
+                let may_write = access.contains(naga::StorageAccess::STORE);
+                assert_eq!(writes, may_write, "{name} writes {global_name}, or says so");
+            }
+        }
+    }
+}

@@ -1,8 +1,7 @@
-//! What a run needs beside its model: the numbers of a step, needs, status, criteria of dressing, the place of the maps.
+//! What a run needs beside its model: the numbers of a step, status, criteria of dressing, the place of the maps.
 
 pub(crate) mod dressing;
 pub(crate) mod map_box;
-pub(crate) mod needs;
 pub(crate) mod shape_step;
 pub(crate) mod status;
 pub(crate) mod step;

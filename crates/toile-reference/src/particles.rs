@@ -1,7 +1,7 @@
 //! The state that a step changes, and what it is measured against.
 
 use glam::Vec3;
-use toile_model::Model;
+use toile_model::{Model, NO_CORNER};
 
 /// The state of all particles, with the masses that a step reads. Every array has the shape [particle_count].
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -50,5 +50,15 @@ impl Lag {
     /// That of step `index` of `count` steps at whose end the maps show the bodies.
     pub fn of(index: u32, count: u32, dt: f32) -> Self {
         Self { start: (count - index) as f32 * dt, end: (count - index - 1) as f32 * dt }
+    }
+}
+
+/// Twice the area vector of a quad or triangle [m²], out of the cloth.
+pub(crate) fn doubled_area(positions: &[Vec3], [a, b, c, d]: [u32; 4]) -> Vec3 {
+    let corner = |index: u32| positions[index as usize];
+    if d == NO_CORNER {
+        (corner(b) - corner(a)).cross(corner(c) - corner(a))
+    } else {
+        (corner(c) - corner(a)).cross(corner(d) - corner(b))
     }
 }

@@ -134,11 +134,7 @@ impl Reference {
         let dt = settings.dt;
         let has_body = self.colliders.any();
 
-        let mut forces = step::spring_forces(particles, &model.links, settings);
-        if let Some(wind) = &settings.wind {
-            let winds = step::quad_wind(particles, &model.quads, &model.particle_quads, wind, dt);
-            step::wind_forces(&mut forces, &winds, &model.quads, &model.particle_quads);
-        }
+        let mut forces = step::forces(particles, model, settings);
         if has_body {
             step::reaction(&mut forces, particles, &self.contacts, settings);
         }

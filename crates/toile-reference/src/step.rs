@@ -18,6 +18,7 @@ mod map_planes;
 mod measure_excess;
 mod move_particles;
 mod pair;
+mod pressure_forces;
 mod quad_midpoints;
 mod quad_wind;
 mod reaction;
@@ -44,6 +45,7 @@ pub use limit_strands::limit_strands;
 pub use limit_zero::limit_zero;
 pub use measure_excess::measure_excess;
 pub use move_particles::move_particles;
+pub use pressure_forces::pressure_forces;
 pub use quad_midpoints::quad_midpoints;
 pub use quad_wind::quad_wind;
 pub use reaction::reaction;
@@ -53,3 +55,21 @@ pub use sample_shapes::sample_shapes;
 pub use spring_forces::spring_forces;
 pub use warm_start::warm_start;
 pub use wind_forces::wind_forces;
+
+use crate::Particles;
+use glam::Vec3;
+use toile_model::{Model, StepSettings};
+
+/// Force on each particle [N] before the bodies answer, shape [particle_count]: that of the springs, and on it what the scene has.
+pub fn forces(particles: &Particles, model: &Model, settings: &StepSettings) -> Vec<Vec3> {
+    let mut forces = spring_forces(particles, &model.links, settings);
+    if let Some(wind) = &settings.wind {
+        let winds = quad_wind(particles, &model.quads, &model.particle_quads, wind, settings.dt);
+        wind_forces(&mut forces, &winds, &model.quads, &model.particle_quads);
+        if wind.pressure != 0.0 {
+            let (quads, particle_quads) = (&model.quads, &model.particle_quads);
+            pressure_forces(&mut forces, &particles.positions, quads, particle_quads, wind.pressure as f32);
+        }
+    }
+    forces
+}

@@ -83,14 +83,37 @@ pub struct Wind {
     pub drag: f64,
     /// Lift coefficient [1], 0 or more: that of the pressure on an inclined plate.
     pub lift: f64,
+    /// How much more the air presses on the inside of the cloth than on its outside [Pa]: what is closed is blown up, and a sail stands.
+    /// It stays the same however much the cloth holds.
+    pub pressure: f64,
 }
 
 impl Wind {
     /// Wind with the drag coefficient of a square flat plate across the wind, 1.17 (Matthews, Aeronautical Engineer's Data Book,
     /// 2002, figure 5.13), and the same for lift: what a pressure of 1.17·|cos α| along the normal has across the wind.
     pub fn new(velocity: DVec3) -> Self {
-        Self { velocity, drag: 1.17, lift: 1.17 }
+        Self { velocity, drag: 1.17, lift: 1.17, pressure: 0.0 }
     }
+
+    /// The numbers beside the velocity, by the names that scenes give them.
+    pub const NUMBERS: &[AirNumber] = &[
+        AirNumber { name: "drag", range: 0.0..=100.0, unit: "", of: |wind| &mut wind.drag },
+        AirNumber { name: "lift", range: 0.0..=100.0, unit: "", of: |wind| &mut wind.lift },
+        AirNumber { name: "pressure", range: -1e4..=1e4, unit: "Pa", of: |wind| &mut wind.pressure },
+    ];
+}
+
+/// A number of the air.
+#[derive(Clone, Debug)]
+pub struct AirNumber {
+    /// Its name in a scene.
+    pub name: &'static str,
+    /// What it may be.
+    pub range: RangeInclusive<f64>,
+    /// Its unit; empty is 1.
+    pub unit: &'static str,
+    /// Where it is kept.
+    pub of: fn(&mut Wind) -> &mut f64,
 }
 
 /// What keeps the cloth from stretching like rubber.

@@ -12,8 +12,8 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
 use toile::files::{read_scene, write_atomically};
-use toile::gpu::{BodyMaps, Kernel, KernelRuns, Pass, Plan, kernel_runs};
-use toile::model::{MapBox, Maps, Merge, Model, Needs, StepSettings};
+use toile::gpu::{BodyMaps, Kernel, KernelRuns, Maps, Pass, Plan, kernel_runs};
+use toile::model::{MapBox, Merge, Model, StepSettings};
 use toile::scene::{Body, Cloth, Scene, Shape};
 
 /// Prints passes, dispatches and bytes of every cloth of a scene; draws the limits of all of them when a picture is wanted.
@@ -106,8 +106,7 @@ fn plans(scene: &Scene, patterns: &[Pattern]) -> Result<Vec<ClothPlan>> {
         let map_box = |bounds| MapBox::around(bounds, scene.settings.texel as f32);
         let map_bytes = bounds.map_or(0, |bounds| BodyMaps::bytes_over(&map_box(bounds), moves));
         for (state, model, settings) in &models {
-            let needs = Needs::new(model, settings, maps, !shapes.is_empty());
-            plans.push(ClothPlan::new(name, state, model, settings, &needs, &shapes, map_bytes));
+            plans.push(ClothPlan::new(name, state, model, settings, maps, &shapes, map_bytes));
         }
         // A later cloth lies over this one. Where it will hang is not known; near the body it changes little.
         bounds = bounds.or_else(|| around(models.iter().flat_map(|(_, model, _)| &model.positions)));
@@ -141,11 +140,11 @@ impl ClothPlan {
         state: &'static str,
         model: &Model,
         settings: &StepSettings,
-        needs: &Needs,
+        maps: Maps,
         shapes: &[Shape],
         map_bytes: u64,
     ) -> Self {
-        let plan = Plan::new(model, needs, settings);
+        let plan = Plan::new(model, settings, maps, !shapes.is_empty());
         let mut buffers = plan.buffer_sizes(model, settings, shapes);
         buffers.insert("indices".to_owned(), 12 * model.triangles().len() as u64);
         let bytes = buffers.values().sum();

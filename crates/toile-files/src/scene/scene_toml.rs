@@ -1,6 +1,7 @@
 //! The shape of a scene file.
 
 use serde::Deserialize;
+use std::collections::BTreeMap;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -72,12 +73,12 @@ pub(crate) struct PapersToml {
 }
 
 /// Air with the coefficients of a flat plate, unless it says otherwise.
-#[derive(Clone, Copy, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Deserialize)]
 pub(crate) struct WindToml {
     pub velocity: [f64; 3],
-    pub drag: Option<f64>,
-    pub lift: Option<f64>,
+    /// Some of [`Wind::NUMBERS`](toile_scene::Wind::NUMBERS).
+    #[serde(flatten)]
+    pub numbers: BTreeMap<String, f64>,
 }
 
 /// The name of a preset or of a fabric file, or a table.

@@ -1,6 +1,7 @@
 //! What the reference makes of an input.
 
 use super::Input;
+use toile::model::Model;
 use toile_kernels::Kernel;
 use toile_reference::{Probe, frame, maps, step};
 
@@ -18,6 +19,11 @@ pub fn answer(kernel: Kernel, input: &mut Input) {
         }
         Kernel::WindForces => {
             step::wind_forces(&mut input.forces, &before.quad_winds, &before.model.quads, &before.model.particle_quads);
+        }
+        Kernel::PressureForces => {
+            let pressure = settings.wind.expect("the input has wind").pressure as f32;
+            let Model { quads, particle_quads, .. } = &before.model;
+            step::pressure_forces(&mut input.forces, &particles.positions, quads, particle_quads, pressure);
         }
         Kernel::Reaction => step::reaction(&mut input.forces, particles, &before.contacts, settings),
         Kernel::Euler => step::euler(&mut particles.velocities, &before.forces, &before.particles.inverse_masses, dt),

@@ -63,17 +63,21 @@ impl Seeds {
 
     /// Input on which `kernel` works on `items` items.
     pub fn input(&self, kernel: Kernel, items: u32, variant: Variant) -> Input {
-        let seed = (self.seed << 40) ^ (u64::from(items) << 16) | (kernel as u64) << 4 | variant as u64;
-        let random = &mut Random::new(seed);
+        // By its name, not its place in the table: a new kernel leaves the input of all others as it is.
+        let name = kernel.name().bytes().fold(0u64, |sum, byte| sum.wrapping_mul(31).wrapping_add(u64::from(byte)));
+        let random = &mut Random::new((self.seed << 40) ^ (u64::from(items) << 16) ^ (name << 4) ^ variant as u64);
         let domain = TABLE.iter().find(|row| row.kernel == kernel).expect("every kernel has a row").domain;
         let counts = counts(domain, items);
         let settings = step_settings(variant);
         let contacts: Vec<Contact> = (0..counts.particles).map(|_| contact(random)).collect();
-        let particles = particles(random, &contacts);
+        let mut particles = particles(random, &contacts);
         let (mut span, limits, seam_pairs) = pairs(random, &particles, &counts, domain);
         let (strands, strand_particles, strand_lengths) = strands(random, &particles, &counts, domain);
         if domain == Domain::StrandColour {
             span = counts.others..counts.others + items;
+            // Whole paths of the longest strand are pinned.
+            let first = strands[counts.others as usize].particles.start as usize;
+            strand_particles[first..first + 40].iter().for_each(|i| particles.inverse_masses[*i as usize] = 0.0);
         }
         let quads = quads(random, &counts);
         let midpoints = Midpoints {
@@ -141,6 +145,15 @@ impl Seeds {
             let status = frame::limit_status(&input.particles.positions, &input.model.limits, input.settings.aim());
             input.status.elongation_max = status.elongation_max.to_bits();
         }
+        if kernel == Kernel::SeamStatus && variant == Variant::Coulomb {
+            let gap = |pair: &SeamPair| {
+                let [a, b] = pair.ends.map(|end| input.particles.positions[end as usize]);
+                // What is no number comes last.
+                a.distance(b).max(0.0)
+            };
+            // The first is the widest.
+            input.model.seam_pairs.sort_by(|one, other| gap(other).total_cmp(&gap(one)));
+        }
         if kernel == Kernel::MeasureExcess {
             // An infinite elongation would be the largest, whatever the kernel does.
             input.particles.velocities.iter_mut().filter(|v| !v.is_finite()).for_each(|v| *v = Vec3::ZERO);
@@ -158,7 +171,8 @@ fn particle_quads(random: &mut Random, counts: &Counts) -> Csr<u32> {
     }))
 }
 
-/// Spheres: one alone, two that mirror each other, and two in one place that move differently; a capsule and a plane.
+/// Spheres: one alone, two that mirror each other, and four in one place that move differently; a capsule and a plane. Of those that are
+/// equally near now an earlier one answers, now a later one.
 fn shapes() -> Vec<ShapeStep> {
     let sphere = ShapeStep {
         kind: ShapeKind::Sphere,
@@ -168,16 +182,16 @@ fn shapes() -> Vec<ShapeStep> {
         spin: vec3(0.3, -1.0, 2.0),
         axis: Vec3::ZERO,
     };
-    let mirrored = [-1.0, 1.0].map(|side| ShapeStep {
+    let mirrored = [1.0, -1.0].map(|side| ShapeStep {
         centre: vec3(MIRROR.x + side * 0.125, MIRROR.y, MIRROR.z),
         radius: 0.2,
         velocity: Vec3::ZERO,
         ..sphere
     });
-    let twins = [vec3(0.3, 0.2, 0.1), vec3(0.3, 0.0, 0.1)].map(|velocity| ShapeStep {
+    let alike = [[0.0, 0.5], [0.2, 0.1], [0.2, 0.3], [0.2, 0.0]].map(|[y, z]| ShapeStep {
         centre: vec3(-0.4, 0.4, 0.3),
         radius: 0.15,
-        velocity,
+        velocity: vec3(0.3, y, z),
         spin: Vec3::ZERO,
         ..sphere
     });
@@ -197,7 +211,7 @@ fn shapes() -> Vec<ShapeStep> {
         spin: vec3(0.1, 0.4, -0.2),
         axis: vec3(0.1, 1.0, -0.15).normalize(),
     };
-    [[sphere].as_slice(), &mirrored, &twins, &[capsule, plane]].concat()
+    [[sphere].as_slice(), &mirrored, &alike, &[capsule, plane]].concat()
 }
 
 fn counts(domain: Domain, items: u32) -> Counts {
@@ -236,7 +250,7 @@ fn step_settings(variant: Variant) -> StepSettings {
     let base = StepSettings {
         dt: 1.0 / 700.0,
         damping: 0.7,
-        wind: Some(Wind { velocity: WIND, drag: 1.1, lift: 0.6 }),
+        wind: Some(air(WIND, variant)),
         push_speed: 1.5,
         pressing: 200.0,
         sweeps: 1,
@@ -254,7 +268,7 @@ fn step_settings(variant: Variant) -> StepSettings {
             law: Friction::Papers { velocity_kept: 0.7, force_removed: 0.4 },
             reflection: 0.3,
             gravity: vec3(0.3, -9.81, 0.1),
-            wind: Some(Wind { velocity: -4.0 * WIND, drag: 0.4, lift: 1.7 }),
+            wind: Some(air(-4.0 * WIND, variant)),
             ..base
         },
         Variant::Weightless => StepSettings {
@@ -266,6 +280,16 @@ fn step_settings(variant: Variant) -> StepSettings {
             ..base
         },
     }
+}
+
+/// Air of which every number is other than zero.
+fn air(velocity: DVec3, variant: Variant) -> Wind {
+    let random = &mut Random::new(variant as u64);
+    let mut wind = Wind::new(velocity);
+    for number in Wind::NUMBERS {
+        *(number.of)(&mut wind) = f64::from(random.between(0.4, 1.7));
+    }
+    wind
 }
 
 fn contact(random: &mut Random) -> Contact {
@@ -574,6 +598,15 @@ fn place_at_the_edges(random: &mut Random, input: &mut Input) {
                 *position = core(random) + random.direction() * (shape.radius * random.between(1.1, 2.5));
                 *velocity =
                     shape.velocity + (core(random) - *position) * (random.between(0.5, 2.0) / input.settings.dt);
+            }
+            // Before an end of one with a direction, and into that end.
+            29 => {
+                let mut ended = input.shapes.iter().filter(|shape| shape.kind == ShapeKind::Capsule);
+                let shape = ended.next().expect("there is a capsule");
+                let end = shape.axis + shape.axis.normalize() * (shape.radius * random.between(1.05, 1.4));
+                *position = shape.centre + end + random.vector(1.5 * shape.radius);
+                let way = shape.centre + shape.axis - *position;
+                *velocity = shape.velocity + way * (random.between(0.3, 1.5) / input.settings.dt);
             }
             // As near to two of them.
             9 => *position = vec3(MIRROR.x, MIRROR.y, MIRROR.z + random.between(-0.1, 0.1)),

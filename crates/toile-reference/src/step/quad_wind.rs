@@ -1,6 +1,7 @@
 //! The force of the air on each quad as on a flat plate. W §2.2.
 
 use crate::Particles;
+use crate::particles::doubled_area;
 use glam::Vec3;
 use toile_model::{Csr, NO_CORNER};
 use toile_scene::{AIR_DENSITY, Wind};
@@ -19,20 +20,18 @@ pub fn quad_wind(
     let air = wind.velocity.as_vec3();
     let [drag, lift] = [wind.drag as f32, wind.lift as f32];
     let mass_share = |i: u32| particles.masses[i as usize] / particle_quads.row(i as usize).len() as f32;
-    let position = |i: u32| particles.positions[i as usize];
     let velocity = |i: u32| particles.velocities[i as usize];
     quads
         .iter()
         .map(|&[a, b, c, d]| {
             let three = (velocity(a) + velocity(b)) + velocity(c);
             let three_masses = (mass_share(a) + mass_share(b)) + mass_share(c);
-            let (middle, mass, area_vector) = if d == NO_CORNER {
-                let doubled = (position(b) - position(a)).cross(position(c) - position(a));
-                (three * (1.0 / 3.0), three_masses, doubled * 0.5)
+            let (middle, mass) = if d == NO_CORNER {
+                (three * (1.0 / 3.0), three_masses)
             } else {
-                let doubled = (position(c) - position(a)).cross(position(d) - position(b));
-                ((three + velocity(d)) * 0.25, three_masses + mass_share(d), doubled * 0.5)
+                ((three + velocity(d)) * 0.25, three_masses + mass_share(d))
             };
+            let area_vector = doubled_area(&particles.positions, [a, b, c, d]) * 0.5;
             let relative = air - middle;
             let speed = relative.length();
             let area = area_vector.length();

@@ -39,7 +39,7 @@ fn drag_goes_with_the_wind_and_lift_across_it() {
             // Wind over cloth at rest and cloth through air at rest are the same.
             let [air, cloth] = if moving { [Vec3::ZERO, along * -4.0] } else { [along * 4.0, Vec3::ZERO] };
             for (drag, lift) in [(1.1, 0.0), (0.0, 0.6), (1.1, 0.6)] {
-                let wind = Wind { velocity: air.as_dvec3(), drag, lift };
+                let wind = Wind { drag, lift, ..Wind::new(air.as_dvec3()) };
                 let forces = winds(&model, cloth, &wind, INSTANT);
                 for (force, area) in forces.iter().zip([1.0, 0.5]) {
                     let expected = along.as_dvec3() * (drag * pressure * area)
