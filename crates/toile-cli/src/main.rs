@@ -2,6 +2,7 @@
 
 mod adapter;
 mod args;
+mod bodies;
 mod commands;
 mod engine;
 mod interrupt;

@@ -2,6 +2,7 @@
 
 use crate::adapter;
 use crate::args::{Backend, Running};
+use crate::bodies::{meshes, moving, shapes};
 use crate::engine::Computer;
 use crate::metrics::{ClothMetrics, Metrics, Surfaces};
 use crate::output::{self, Shown};
@@ -9,7 +10,7 @@ use crate::stdout::print;
 use crate::worn::{self, Worn};
 use anyhow::{Result, bail};
 use toile::files::SceneFile;
-use toile::scene::{Body, Cloth, Mesh, MovingMesh, Scene, Shape};
+use toile::scene::{Cloth, Mesh, Scene};
 
 /// Simulates a scene: garments are dressed one after another, sheets run for a number of frames. Writes the results.
 pub fn simulate(file: &SceneFile, running: &Running) -> Result<()> {
@@ -69,31 +70,6 @@ fn check_bodies(scene: &Scene, backend: Backend) -> Result<()> {
         bail!("scene {} has a mesh that moves: --backend reference knows meshes at rest, a device runs it", scene.name);
     }
     Ok(())
-}
-
-/// The mesh bodies of a scene that move.
-fn moving(scene: &Scene) -> impl Iterator<Item = &MovingMesh> {
-    scene.bodies.iter().filter_map(|body| match body {
-        Body::Moving(body) => Some(body),
-        Body::Mesh(_) | Body::Shape(_) => None,
-    })
-}
-
-/// The mesh bodies of a scene at rest.
-pub fn meshes(scene: &Scene) -> impl Iterator<Item = &Mesh> {
-    scene.bodies.iter().filter_map(|body| match body {
-        Body::Mesh(mesh) => Some(mesh),
-        Body::Moving(_) | Body::Shape(_) => None,
-    })
-}
-
-/// The shapes of a scene.
-pub fn shapes(scene: &Scene) -> Vec<Shape> {
-    let shape = |body: &Body| match body {
-        Body::Shape(shape) => Some(shape.clone()),
-        Body::Mesh(_) | Body::Moving(_) => None,
-    };
-    scene.bodies.iter().filter_map(shape).collect()
 }
 
 /// Simulated time at the end of the last cloth [s].

@@ -4,6 +4,7 @@ mod regions;
 mod rows;
 mod saved;
 mod stage;
+mod walker;
 
 use crate::adapter::{self, Gpu};
 use crate::args::{Backend, Running};
@@ -31,6 +32,7 @@ use toile::gpu::{Kernel, Timer};
 use toile::model::Status;
 use toile::scene::{Body, Cloth, Garment, Mesh, MovingMesh, Scene, Settings};
 use toile_reference::ExactDistance;
+use walker::Walker;
 
 /// Frames in the strip.
 const STRIP_COUNT: u32 = 6;
@@ -98,14 +100,6 @@ impl std::fmt::Write for Digest {
     }
 }
 
-/// A garment that goes along.
-struct Walker {
-    name: String,
-    particle_count: u32,
-    steps_per_frame: u32,
-    triangles: Vec<[u32; 3]>,
-}
-
 /// Dresses and walks, and writes pictures, motion and metrics.
 pub fn walk(walk: &Walk, running: &Running) -> Result<()> {
     output::check(&running.out)?;
@@ -132,15 +126,7 @@ pub fn walk(walk: &Walk, running: &Running) -> Result<()> {
             simulation.restore(&gpu.queue, &state).with_context(|| saved.damaged(count - 1))?;
         }
     }
-    let walkers: Vec<Walker> = simulation
-        .cloths()
-        .map(|worn| Walker {
-            name: worn.name.to_owned(),
-            particle_count: worn.model.particle_count(),
-            steps_per_frame: worn.cloth.settings().steps_per_frame,
-            triangles: worn.model.triangles(),
-        })
-        .collect();
+    let walkers: Vec<Walker> = simulation.cloths().map(Walker::of).collect();
     let collision_part = simulate(walk, &gpu, &mut simulation, &saved, running)?;
     let rows = saved.rows(walk.frame_count)?;
     finish(walk, &walkers, &saved, running)?;

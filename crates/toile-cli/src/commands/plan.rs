@@ -1,9 +1,9 @@
 //! `toile plan`: what a scene gets, without an adapter.
 
 use crate::args::PlanOf;
+use crate::bodies::shapes;
 use crate::commands::outfit;
 use crate::pattern::{self, Pattern};
-use crate::simulate::shapes;
 use crate::stdout::print;
 use crate::steps::step_settings;
 use anyhow::Result;

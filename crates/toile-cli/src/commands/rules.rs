@@ -2,12 +2,12 @@
 
 use crate::adapter;
 use crate::args::{Backend, Rules};
+use crate::bodies::shapes;
 use crate::engine::{Computer, State};
 use crate::interrupt::Interrupted;
 use crate::output;
 use crate::picture::{self, Drawn, View};
 use crate::progress::Progress;
-use crate::simulate::shapes;
 use crate::stdout::print;
 use crate::steps::step_settings;
 use anyhow::{Context, Result, bail};

@@ -1,7 +1,7 @@
 //! What is measured of a walk, frame by frame.
 
-use super::Walker;
 use super::regions::Regions;
+use super::walker::Walker;
 use crate::engine::State;
 use crate::metrics::{is_far, max_and_p99, reach};
 use serde::{Deserialize, Serialize};
