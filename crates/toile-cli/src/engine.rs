@@ -2,12 +2,12 @@
 
 use crate::adapter::Gpu;
 use crate::interrupt;
+use crate::look::{Look, State};
 use crate::reference_run::ReferenceRun;
 use anyhow::{Context, Result, anyhow};
-use glam::Vec3;
 use std::collections::BTreeMap;
-use toile::gpu::{Kernel, PassTime, Timer, readback};
-use toile::model::{Dressing, DressingError, Model, Status, StepSettings};
+use toile::gpu::{Kernel, PassTime, Timer};
+use toile::model::{Dressing, DressingError, Status};
 use toile::scene::Scene;
 use toile::{Cloth, Error, Simulation, Stage};
 
@@ -35,29 +35,6 @@ pub enum Engine<'a> {
     Reference(Box<ReferenceRun>),
 }
 
-/// A cloth as it is now.
-pub struct Look<'a> {
-    /// Name of the garment or sheet.
-    pub name: &'a str,
-    /// What is simulated.
-    pub model: &'a Model,
-    /// The numbers of its steps.
-    pub settings: StepSettings,
-    /// What it reported last.
-    pub status: Status,
-}
-
-/// Positions, normals and contacts of a cloth.
-#[derive(Clone, Debug, Default)]
-pub struct State {
-    /// Positions [m], shape [particle_count].
-    pub positions: Vec<Vec3>,
-    /// Unit normals, shape [particle_count].
-    pub normals: Vec<Vec3>,
-    /// Which particles are in contact by the maps, shape [particle_count]; empty without a body.
-    pub touching: Vec<bool>,
-}
-
 impl Computer {
     /// Name for the metrics.
     pub fn name(&self) -> &str {
@@ -73,22 +50,6 @@ impl Computer {
             Computer::Gpu(gpu) => Engine::Gpu { gpu, simulation: Box::new(Simulation::new(&gpu.device, scene)?) },
             Computer::Reference => Engine::Reference(Box::new(ReferenceRun::new(scene)?)),
         })
-    }
-}
-
-impl State {
-    /// Reads a cloth back.
-    pub fn of(gpu: &Gpu, cloth: &Cloth) -> Result<Self> {
-        let read = |buffer: &wgpu::Buffer| readback::read_vec4s(&gpu.device, &gpu.queue, buffer);
-        let vectors = |buffer: &wgpu::Buffer| -> Result<Vec<Vec3>> {
-            Ok(read(buffer)?.into_iter().map(|value| value.truncate()).collect())
-        };
-        let touching = match cloth.contacts() {
-            Some(buffer) => read(buffer)?.chunks_exact(2).map(|contact| contact[0].w > 0.0).collect(),
-            None => Vec::new(),
-        };
-        let frame = cloth.frame();
-        Ok(Self { positions: vectors(&frame.positions)?, normals: vectors(&frame.normals)?, touching })
     }
 }
 

@@ -6,6 +6,7 @@ mod bodies;
 mod commands;
 mod engine;
 mod interrupt;
+mod look;
 mod mesa_layer;
 mod metrics;
 mod output;

@@ -1,7 +1,7 @@
 //! A scene by the CPU reference: its garments one over the other on bodies at rest, or its sheet.
 
 use crate::bodies::{meshes, shapes};
-use crate::engine::{Look, State};
+use crate::look::{Look, State};
 use crate::steps::step_settings;
 use anyhow::{Context, Result, bail};
 use toile::Stage;

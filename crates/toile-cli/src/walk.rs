@@ -8,8 +8,9 @@ mod walker;
 
 use crate::adapter::{self, Gpu};
 use crate::args::{Backend, Running};
-use crate::engine::{self, Engine, State, status};
+use crate::engine::{self, Engine, status};
 use crate::interrupt;
+use crate::look::State;
 use crate::output;
 use crate::picture::{self, Drawn, Material, View};
 use crate::stdout::print;

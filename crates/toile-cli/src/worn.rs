@@ -1,6 +1,7 @@
 //! The cloths of a scene that have been simulated, and the way there.
 
-use crate::engine::{Computer, Engine, Look, State};
+use crate::engine::{Computer, Engine};
+use crate::look::{Look, State};
 use crate::progress::Progress;
 use anyhow::{Context, Result};
 use std::collections::BTreeMap;

@@ -3,8 +3,9 @@
 use crate::adapter;
 use crate::args::{Backend, Rules};
 use crate::bodies::shapes;
-use crate::engine::{Computer, State};
+use crate::engine::Computer;
 use crate::interrupt::Interrupted;
+use crate::look::State;
 use crate::output;
 use crate::picture::{self, Drawn, View};
 use crate::progress::Progress;

@@ -2,7 +2,7 @@
 
 use super::regions::Regions;
 use super::walker::Walker;
-use crate::engine::State;
+use crate::look::State;
 use crate::metrics::{is_far, max_and_p99, reach};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
