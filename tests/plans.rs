@@ -97,6 +97,9 @@ fn a_scene_with_wind_has_its_passes_and_bytes_and_one_without_has_not() {
         assert_eq!(expected[0], Kernel::SpringForces);
         expected.splice(1..1, [Kernel::QuadWind, Kernel::WindForces]);
         assert_eq!(kernels(&windy.0), expected, "{name}");
+        let pressed = plan_of_scene(&scene(name, &[("wind", "{ velocity = [1, 0, 0], pressure = 20 }")]));
+        expected.insert(3, Kernel::PressureForces);
+        assert_eq!(kernels(&pressed), expected, "{name}, pressed");
         assert_eq!(windy.0.frame, calm.0.frame, "{name}");
         assert_eq!(windy.1.get("quad_winds"), Some(&(16 * quad_count)), "{name}");
         assert!(!calm.1.contains_key("quad_winds"), "{name}: {:?}", calm.1);

@@ -76,13 +76,13 @@ fn a_polished_sheet_agrees_where_it_holds_and_where_it_misses() {
 }
 
 #[test]
-fn a_sheet_in_wind_agrees_hanging_and_on_a_sphere() {
+fn a_sheet_in_wind_and_under_pressure_agrees_hanging_and_on_a_sphere() {
     for (name, velocity) in [("hang", glam::dvec3(1.0, 2.0, 8.0)), ("ball", glam::dvec3(3.0, -1.0, 0.0))] {
         let mut windy = scene(name, &[("n", "17")]);
         let model = sheet_model(&windy);
-        windy.settings.wind = Some(Wind::new(velocity));
+        windy.settings.wind = Some(Wind { pressure: 3.0, ..Wind::new(velocity) });
         let settings = StepSettings::new(&windy.settings, &model);
-        Life::new(&model, &settings, None, shapes(&windy)).agree(&format!("{name} in wind"), 20);
+        Life::new(&model, &settings, None, shapes(&windy)).agree(&format!("{name} in wind and under pressure"), 20);
     }
 }
 
