@@ -16,7 +16,6 @@ mod progress;
 mod reference_run;
 mod simulate;
 mod stdout;
-mod steps;
 mod walk;
 mod worn;
 

@@ -2,11 +2,10 @@
 
 use crate::bodies::{meshes, shapes};
 use crate::look::{Look, State};
-use crate::steps::step_settings;
 use anyhow::{Context, Result, bail};
 use toile::Stage;
-use toile::model::{Dressing, DressingError, DressingStage, Merge, Model, StepSettings};
-use toile::scene::{Cloth, Mesh, Scene, Shape};
+use toile::model::{Dressing, DressingError, DressingStage, Merge, Open, Piece, StepSettings};
+use toile::scene::{Mesh, Scene, Shape};
 use toile_reference::maps::{Surface, render_maps};
 use toile_reference::{Colliders, Reference};
 
@@ -21,15 +20,6 @@ pub struct ReferenceRun {
     worn: Vec<Worn>,
 }
 
-/// A cloth, meshed.
-struct Piece {
-    name: String,
-    /// The garment before it is sewn, how it is merged, and the numbers of its sewing.
-    open: Option<(Model, Merge, StepSettings)>,
-    model: Model,
-    step: StepSettings,
-}
-
 struct Worn {
     reference: Reference,
     dressing: Option<Dressing>,
@@ -42,23 +32,7 @@ impl ReferenceRun {
     /// A scene at its start.
     pub fn new(scene: &Scene) -> Result<Self> {
         let settings = &scene.settings;
-        let piece = |cloth: &Cloth| -> Result<Piece> {
-            match cloth {
-                Cloth::Sheet(sheet) => {
-                    let model = Model::from_sheet(sheet, settings);
-                    let step = step_settings(&sheet.name, settings, &model)?;
-                    Ok(Piece { name: sheet.name.clone(), open: None, model, step })
-                }
-                Cloth::Garment(garment) => {
-                    let open = Model::from_garment(garment, settings)?;
-                    let sewing = step_settings(&garment.name, settings, &open)?.sewing();
-                    let (model, merge) = open.sewn();
-                    let step = step_settings(&garment.name, settings, &model)?;
-                    Ok(Piece { name: garment.name.clone(), open: Some((open, merge, sewing)), model, step })
-                }
-            }
-        };
-        let pieces: Vec<Piece> = scene.cloths.iter().map(piece).collect::<Result<_>>()?;
+        let pieces = Piece::all(scene)?;
         if pieces.len() > 1 && pieces.iter().any(|piece| piece.open.is_none()) {
             bail!("--backend reference: it runs one sheet, or garments; leave the other cloths of {} out", scene.name);
         }
@@ -88,7 +62,7 @@ impl ReferenceRun {
                 settings: piece.step.clone(),
                 stage: DressingStage::Dressed,
             },
-            Some((open, _, sewing)) => Worn {
+            Some(Open { model: open, sewing, .. }) => Worn {
                 reference: Reference::new(open, sewing, colliders),
                 dressing: Some(Dressing::new(open, sewing)),
                 settings: sewing.clone(),
@@ -124,7 +98,7 @@ impl ReferenceRun {
         let count = worn.reference.positions().len() as u32;
         if let Err(error) = dressing.advance(&status, count) {
             let open = piece.open.as_ref().filter(|_| matches!(error, DressingError::SeamsOpen { .. }));
-            let seam = open.and_then(|(open, ..)| open.widest_seam(worn.reference.positions()));
+            let seam = open.and_then(|open| open.model.widest_seam(worn.reference.positions()));
             let seam = seam.map(|(name, _)| format!(", seam {name}")).unwrap_or_default();
             return Err(error).with_context(|| format!("garment {}{seam}", piece.name));
         }
@@ -143,10 +117,7 @@ impl ReferenceRun {
             .zip(&self.worn)
             .map(|(piece, worn)| Look {
                 name: &piece.name,
-                model: match &piece.open {
-                    Some((open, ..)) if worn.stage == DressingStage::Sewing => open,
-                    _ => &piece.model,
-                },
+                model: piece.model_of(worn.stage),
                 settings: worn.settings.clone(),
                 status: worn.reference.status(),
             })
@@ -174,18 +145,17 @@ impl Worn {
     fn hand_over(&mut self, piece: &Piece) {
         let Some(wanted) = self.dressing.as_ref().map(Dressing::stage) else { return };
         if self.stage == DressingStage::Sewing && wanted != DressingStage::Sewing {
-            let (_, merge, _) = piece.open.as_ref().expect("a garment is open before it is sewn");
-            self.go_on(DressingStage::Easing, &piece.model, piece.step.easing(), merge);
+            let open = piece.open.as_ref().expect("a garment is open before it is sewn");
+            self.go_on(DressingStage::Easing, piece, &open.merge);
         }
         if self.stage == DressingStage::Easing && wanted != DressingStage::Easing {
-            let same = Merge::identity(piece.model.particle_count());
-            self.go_on(DressingStage::Draping, &piece.model, piece.step.draping(), &same);
+            self.go_on(DressingStage::Draping, piece, &Merge::identity(piece.model.particle_count()));
         }
     }
 
-    fn go_on(&mut self, stage: DressingStage, model: &Model, settings: StepSettings, merge: &Merge) {
-        self.reference = self.reference.clone().sewn(model, &settings, merge);
-        self.settings = settings;
+    fn go_on(&mut self, stage: DressingStage, piece: &Piece, merge: &Merge) {
+        self.settings = piece.settings_of(stage);
+        self.reference = self.reference.clone().sewn(&piece.model, &self.settings, merge);
         self.stage = stage;
     }
 }

@@ -51,4 +51,17 @@ pub enum ModelError {
         /// The spacing that was asked for [m].
         spacing: f64,
     },
+    /// A frame would have more steps than a run could end with.
+    #[error(
+        "{cloth}: a frame would take {steps} steps, and at most {most} are done: use softer springs, heavier or coarser cloth, a larger safety \
+         factor, or the rule \"hierarchical\", which needs few"
+    )]
+    Steps {
+        /// Name of the garment or sheet.
+        cloth: String,
+        /// Steps of a frame.
+        steps: u32,
+        /// Most steps of a frame.
+        most: u32,
+    },
 }

@@ -49,7 +49,6 @@ pub struct Cloth {
     solver: Solver,
     colliders: Colliders,
     frame: Frame,
-    is_sewing: bool,
 }
 
 impl Cloth {
@@ -97,7 +96,7 @@ impl Cloth {
             particle_count: model.particle_count(),
             index_count: 3 * triangles.len() as u32,
         };
-        Self { solver, colliders, frame, is_sewing: !model.seam_pairs.is_empty() }
+        Self { solver, colliders, frame }
     }
 
     /// Records one frame into the caller's encoder: its steps, then normals and status. What is recorded counts as done, so an encoder that
@@ -156,11 +155,6 @@ impl Cloth {
     /// Goes on from a state that was written into these buffers.
     pub(crate) fn resume(&mut self, step: u64, status: Option<Status>) {
         self.solver.resume(step, status);
-    }
-
-    /// Whether it is a garment with open seams.
-    pub(crate) fn is_sewing(&self) -> bool {
-        self.is_sewing
     }
 
     /// Records normals and status, as the end of a frame whose steps were recorded one by one.

@@ -12,19 +12,6 @@ pub enum Error {
     /// The cloth cannot be meshed.
     #[error(transparent)]
     Model(#[from] toile_model::ModelError),
-    /// A frame of a cloth would have more steps than a run could end with.
-    #[error(
-        "{cloth}: a frame would take {steps} steps, and at most {most} are done: use softer springs, heavier or coarser cloth, a larger safety \
-         factor, or the rule \"hierarchical\", which needs few"
-    )]
-    Steps {
-        /// Name of the garment or sheet.
-        cloth: String,
-        /// Steps of a frame.
-        steps: u32,
-        /// Most steps of a frame.
-        most: u32,
-    },
     /// A garment could not be dressed.
     #[error("garment {garment}: {source}")]
     Dressing {

@@ -1,8 +1,7 @@
 //! A garment on its way onto a body: sewn, eased and draped, each until measured criteria hold.
 
-use crate::piece::Piece;
 use crate::{Cloth, Colliders, Error};
-use toile_model::{Dressing, DressingStage, Merge, Status};
+use toile_model::{Dressing, DressingStage, Merge, Piece, Status};
 
 /// A garment on its way onto bodies that stand still.
 #[derive(Debug)]

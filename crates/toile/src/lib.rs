@@ -10,7 +10,6 @@ mod error;
 mod fitting;
 mod frame;
 mod outfit;
-mod piece;
 mod pose;
 mod simulation;
 mod state;

@@ -4,12 +4,11 @@ use crate::boxes::{Boxes, around_both};
 use crate::clock::{Advance, Clock};
 use crate::fitting::Fitting;
 use crate::outfit::{Bodies, Outfit, Part, Recorder, maps_of_round, maps_per_frame};
-use crate::piece::Piece;
 use crate::{Cloth, Colliders, Error, pose};
 use glam::{Vec3, Vec4};
 use std::sync::Arc;
 use toile_gpu::{Arrival, BodyMaps, Surface};
-use toile_model::{Dressing, DressingStage, MapBox, Model, StepSettings};
+use toile_model::{Dressing, DressingStage, MapBox, Model, Piece, StepSettings};
 use toile_scene::{Body, Mesh, MovingMesh, Scene, Settings};
 
 /// Time that garments have to hang quietly once the body has gone over to the start of its motion [s].
@@ -117,7 +116,7 @@ impl Simulation {
     /// the panels and the first pose does not; it goes over to its motion in a second.
     ///
     /// # Errors
-    /// [`Error::Model`] when a garment cannot be meshed, [`Error::Steps`] when a frame would take too many steps, [`Error::Body`] when a body
+    /// [`Error::Model`] when a garment cannot be meshed or a frame would take too many steps, [`Error::Body`] when a body
     /// leads to no map_box. What does not fit the device is told by [`Simulation::advance`].
     pub fn new(device: &wgpu::Device, scene: &Scene) -> Result<Self, Error> {
         let pieces = Piece::all(scene)?;
@@ -458,16 +457,20 @@ impl Simulation {
 
     /// The cloths that are on the device, from the inside out: while garments are dressed those that are, and the one that is being dressed.
     pub fn cloths(&self) -> impl Iterator<Item = Worn<'_>> {
-        let cloths: Vec<&Cloth> = match &self.phase {
+        let cloths: Vec<(&Cloth, DressingStage)> = match &self.phase {
             Phase::Dressing(dressed) => {
-                let fitting = dressed.fitting.iter().map(|fitting| &fitting.cloth);
-                dressed.done.iter().map(|done| &done.cloth).chain(fitting).collect()
+                let done = dressed.done.iter().map(|done| (&done.cloth, DressingStage::Dressed));
+                done.chain(dressed.fitting.iter().map(|fitting| (&fitting.cloth, fitting.stage))).collect()
             }
-            Phase::Together { outfit, .. } => outfit.cloths().collect(),
+            Phase::Together { outfit, .. } => outfit.cloths().map(|cloth| (cloth, DressingStage::Dressed)).collect(),
         };
         let dressing = matches!(self.phase, Phase::Dressing(_));
         let pieces = self.pieces.iter().filter(move |piece| !dressing || piece.open.is_some());
-        pieces.zip(cloths).map(|(piece, cloth)| Worn { name: &piece.name, model: piece.model_of(cloth), cloth })
+        pieces.zip(cloths).map(|(piece, (cloth, stage))| Worn {
+            name: &piece.name,
+            model: piece.model_of(stage),
+            cloth,
+        })
     }
 
     /// The cloths themselves, for measuring: [`Cloth::time_step`] goes on by a step.

@@ -3,13 +3,12 @@
 use crate::clock::Clock;
 use crate::fitting::Fitting;
 use crate::outfit::Outfit;
-use crate::piece::Piece;
 use crate::simulation::{Bounds, Done, Dressed, Phase, Simulation, Stage};
 use crate::{Cloth, Colliders, Error};
 use glam::{Vec3, Vec4};
 use serde::{Deserialize, Serialize};
 use toile_gpu::readback;
-use toile_model::{Dressing, DressingStage, Status, digest_of};
+use toile_model::{Dressing, DressingStage, Piece, Status, digest_of};
 
 /// What the bytes begin with; another layout has another number.
 const MAGIC: &[u8] = b"toile state 1\n";
@@ -146,8 +145,8 @@ impl Simulation {
 
     fn restored_dressing(&self, queue: &wgpu::Queue, state: &State) -> Result<Phase, Error> {
         let mut dressed = Dressed::default();
-        let garments = self.pieces.iter().filter_map(|piece| piece.open.as_ref().map(|open| (piece, open)));
-        for ((piece, open), saved) in garments.zip(&state.cloths) {
+        let garments = self.pieces.iter().filter(|piece| piece.open.is_some());
+        for (piece, saved) in garments.zip(&state.cloths) {
             let SavedDressing { dressing, stage, heard } = saved.dressing.clone().ok_or_else(damaged)?;
             let inner: Option<Vec<_>> = dressed.done.iter().map(|done| done.bounds.known()).collect();
             let inner = inner.ok_or_else(damaged)?;
@@ -155,7 +154,7 @@ impl Simulation {
                 submit(&self.device, queue, record);
                 Ok(())
             })?;
-            let model = if stage == DressingStage::Sewing { &open.model } else { &piece.model };
+            let model = piece.model_of(stage);
             let colliders = Colliders { maps, shapes: self.bodies.shapes.clone() };
             let mut cloth = Cloth::new(&self.device, model, &piece.settings_of(stage), colliders)?;
             saved.write(queue, &mut cloth)?;

@@ -5,7 +5,6 @@ use crate::bodies::shapes;
 use crate::commands::outfit;
 use crate::pattern::{self, Pattern};
 use crate::stdout::print;
-use crate::steps::step_settings;
 use anyhow::Result;
 use glam::Vec3;
 use serde::Serialize;
@@ -87,7 +86,7 @@ fn plans(scene: &Scene, patterns: &[Pattern]) -> Result<Vec<ClothPlan>> {
     let mut bounds = bounds(scene);
     let mut plans = Vec::new();
     for Pattern { name, open, sewn, .. } in patterns {
-        let step = |model| step_settings(name, &scene.settings, model);
+        let step = |model| StepSettings::of_cloth(name, &scene.settings, model);
         // As a garment is dressed: sewn, then draped.
         let models = match sewn {
             None => vec![("sheet", open, step(open)?)],

@@ -10,12 +10,11 @@ use crate::output;
 use crate::picture::{self, Drawn, View};
 use crate::progress::Progress;
 use crate::stdout::print;
-use crate::steps::step_settings;
 use anyhow::{Context, Result, bail};
 use glam::{DVec3, Vec3};
 use serde::Serialize;
 use toile::files::{SceneFile, read_scene, write_atomically};
-use toile::model::{Model, Status};
+use toile::model::{Model, Status, StepSettings};
 use toile::scene::{Cloth, Mesh, Rule};
 
 /// Height of the pictures [px].
@@ -101,7 +100,7 @@ fn try_rule(
     let mut scene = scene.clone();
     scene.settings.velocity_modification.rule = rule;
     let model = Model::from_sheet(sheet, &scene.settings);
-    let step = step_settings(name, &scene.settings, &model)?;
+    let step = StepSettings::of_cloth(name, &scene.settings, &model)?;
     let mut engine = computer.start(&scene)?;
     let seconds = 1.0 / scene.settings.frame_rate;
     let mut state = State { positions: model.positions.clone(), ..State::default() };

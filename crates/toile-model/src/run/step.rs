@@ -1,7 +1,7 @@
 //! The numbers of one step, and the largest step that is stable.
 
-use crate::Model;
 use crate::cloth::aim;
+use crate::{Model, ModelError};
 use glam::Vec3;
 use toile_scene::{Friction, Polish, Rule, Settings, VelocityModification, Wind};
 
@@ -101,6 +101,19 @@ impl StepSettings {
     /// Most steps of a frame. The default rule has 16 at 60 frames per second and 960 at one; a rule that leaves the tension to stiff springs
     /// has hundreds on fine cloth. More of them are a slip in a scene, which must not ask for years.
     pub const STEPS_PER_FRAME_MAX: u32 = 10_000;
+
+    /// The same as [`StepSettings::new`], of a cloth with this name.
+    ///
+    /// # Errors
+    /// [`ModelError::Steps`] when a frame would have more than [`StepSettings::STEPS_PER_FRAME_MAX`].
+    pub fn of_cloth(name: &str, settings: &Settings, model: &Model) -> Result<Self, ModelError> {
+        let step = Self::new(settings, model);
+        let (steps, most) = (step.steps_per_frame, Self::STEPS_PER_FRAME_MAX);
+        if steps > most {
+            return Err(ModelError::Steps { cloth: name.to_owned(), steps, most });
+        }
+        Ok(step)
+    }
 
     /// The same frame in so many more steps that it has a multiple of `parts`.
     pub fn in_parts(&self, parts: u32) -> Self {
