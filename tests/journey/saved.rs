@@ -46,19 +46,13 @@ fn every_stage_goes_on_bit_for_bit() {
         assert!(seen(stage, 1) && seen(stage, 2), "{stage:?}");
     }
     assert!(seen(Stage::Posing, 2) && seen(Stage::Running, 2));
-    for (stage, cloths, bytes) in &kept {
-        let mut once = restore(&scene, bytes).unwrap_or_else(|error| panic!("{stage:?}: {error}"));
-        assert!(save(&once) == *bytes, "{stage:?} of {cloths} cloths is saved as it was");
-        let mut twice = restore(&scene, bytes).expect("it was restored before");
-        let went_on = go_on(&mut once);
-        assert!(went_on == go_on(&mut twice), "{stage:?} of {cloths} cloths");
-    }
-    // And as if nothing had happened: a frame later it is where the one that was never saved is.
+    // As if nothing had happened: a frame later each is where the one that was never saved is.
     let pairs = kept.windows(2).filter(|pair| (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1));
     let mut compared = 0;
     for pair in pairs {
         let (stage, cloths, first) = &pair[0];
-        let mut resumed = restore(&scene, first).expect("a state");
+        let mut resumed = restore(&scene, first).unwrap_or_else(|error| panic!("{stage:?}: {error}"));
+        assert!(save(&resumed) == *first, "{stage:?} of {cloths} cloths is saved as it was");
         advance(&mut resumed, FRAME);
         resumed.stage().expect("it is finite");
         assert!(save(&resumed) == pair[1].2, "a frame of {stage:?} with {cloths} cloths");

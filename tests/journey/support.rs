@@ -5,7 +5,7 @@ use toile::files::{BodyOptions, read_moving_body};
 use toile::{Advance, Simulation};
 use toile_lab::fixtures::{fixture, garment, scene, settings};
 use toile_scene::{Body, Cloth, Mesh, MovingMesh, RigidKey, Scene};
-use toile_workspace::gpu;
+use toile_workspace::{arrived, gpu};
 
 /// Edge length of a texel of the maps [m]: these tests ask what happens, not how exactly.
 const TEXEL: f64 = 0.02;
@@ -55,10 +55,19 @@ pub fn start(scene: &Scene) -> Simulation {
     Simulation::new(&gpu().device, scene).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Goes on by some seconds and waits.
+/// Goes on by some seconds and waits, also for what the cloths report.
 pub fn advance(simulation: &mut Simulation, seconds: f64) -> Advance {
     let mut advance = Advance::default();
     gpu().run(|encoder| advance = simulation.advance(encoder, seconds).unwrap_or_else(|error| panic!("{error}")));
+    arrived("the status of the cloths", || {
+        let is_told = |cloth: &toile::Cloth| match cloth.status() {
+            Ok(Some(status)) => status.step == cloth.step(),
+            // Nothing is told of a cloth at its start; what is wrong is told by the next call.
+            Ok(None) => cloth.step() == 0,
+            Err(_) => true,
+        };
+        simulation.cloths().all(|worn| is_told(worn.cloth)).then_some(())
+    });
     advance
 }
 

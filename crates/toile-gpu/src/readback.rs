@@ -107,9 +107,10 @@ fn read(
         // The receiver waits below; it is gone only when waiting itself failed.
         let _ = sender.send(result);
     });
-    queue.submit([encoder.finish()]);
+    let submission_index = Some(queue.submit([encoder.finish()]));
     let failed = |error: &dyn std::fmt::Display| GpuError::Device(error.to_string());
-    device.poll(wgpu::PollType::wait_indefinitely()).map_err(|e| failed(&e))?;
+    // For this alone: others may have submitted more since.
+    device.poll(wgpu::PollType::Wait { submission_index, timeout: None }).map_err(|e| failed(&e))?;
     receiver.recv().map_err(|e| failed(&e))?.map_err(|e| failed(&e))?;
     let view = staging.get_mapped_range(..).map_err(|e| failed(&e))?;
     Ok(view.to_vec())

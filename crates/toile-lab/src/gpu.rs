@@ -27,9 +27,10 @@ impl Gpu {
     pub fn run(&self, record: impl FnOnce(&mut wgpu::CommandEncoder)) -> Result<(), GpuError> {
         let mut encoder = self.device.create_command_encoder(&Default::default());
         record(&mut encoder);
-        self.queue.submit([encoder.finish()]);
+        let submission_index = Some(self.queue.submit([encoder.finish()]));
         let lost = |error: wgpu::PollError| GpuError::Device(error.to_string());
-        self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(lost)?;
+        // For this alone: other threads may have submitted more since.
+        self.device.poll(wgpu::PollType::Wait { submission_index, timeout: None }).map_err(lost)?;
         Ok(())
     }
 

@@ -6,12 +6,14 @@
 mod boxes;
 mod clock;
 mod cloth;
+mod dressed;
 mod error;
 mod fitting;
 mod frame;
 mod outfit;
 mod pose;
 mod simulation;
+mod stage;
 mod state;
 mod strain;
 
@@ -19,7 +21,8 @@ pub use clock::Advance;
 pub use cloth::{Cloth, Colliders};
 pub use error::Error;
 pub use frame::Frame;
-pub use simulation::{Simulation, Stage, Worn};
+pub use simulation::{Simulation, Worn};
+pub use stage::Stage;
 pub use strain::Strain;
 pub use toile_files as files;
 pub use toile_gpu as gpu;

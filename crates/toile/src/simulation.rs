@@ -2,34 +2,19 @@
 
 use crate::boxes::{Boxes, around_both};
 use crate::clock::{Advance, Clock};
+use crate::dressed::{Bounds, Done, Dressed};
 use crate::fitting::Fitting;
 use crate::outfit::{Bodies, Outfit, Part, Recorder, maps_of_round, maps_per_frame};
+use crate::stage::Stage;
 use crate::{Cloth, Colliders, Error, pose};
-use glam::{Vec3, Vec4};
+use glam::Vec3;
 use std::sync::Arc;
-use toile_gpu::{Arrival, BodyMaps, Surface};
+use toile_gpu::{BodyMaps, Surface};
 use toile_model::{Dressing, DressingStage, MapBox, Model, Piece, StepSettings};
 use toile_scene::{Body, Mesh, MovingMesh, Scene, Settings};
 
 /// Time that garments have to hang quietly once the body has gone over to the start of its motion [s].
 const WAITING_SECONDS: f64 = 0.5;
-
-/// What a simulation is doing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Stage {
-    /// The seams of a garment are being closed, without gravity.
-    Sewing,
-    /// A garment is sewn and falls without friction to where it stretches least, its labelled edges still held.
-    Easing,
-    /// A garment comes to rest.
-    Draping,
-    /// Every garment is at rest. The next advance goes on to what comes then.
-    Dressed,
-    /// The body goes over from the pose that its garments were sewn in to the start of its motion, and they along with it.
-    Posing,
-    /// Everything goes on together: bodies, their maps, garments and sheets.
-    Running,
-}
 
 /// One cloth of a simulation.
 #[derive(Clone, Copy, Debug)]
@@ -88,36 +73,13 @@ pub(crate) enum Phase {
     },
 }
 
-/// Garments that are dressed, from the inside out, and the one that is being dressed.
-#[derive(Debug, Default)]
-pub(crate) struct Dressed {
-    pub(crate) done: Vec<Done>,
-    pub(crate) fitting: Option<Fitting>,
-}
-
-/// A garment that is dressed.
-#[derive(Debug)]
-pub(crate) struct Done {
-    pub(crate) cloth: Cloth,
-    pub(crate) dressing: Dressing,
-    pub(crate) bounds: Bounds,
-}
-
-/// The box around a dressed garment, which the maps of the next one need.
-#[derive(Debug)]
-pub(crate) enum Bounds {
-    Unknown,
-    UnderWay(Arrival),
-    Known([Vec3; 2]),
-}
-
 impl Simulation {
     /// A scene at its start. A body that moves is dressed in the first pose of its motion, or without any clip where it then stands clear of
     /// the panels and the first pose does not; it goes over to its motion in a second.
     ///
     /// # Errors
     /// [`Error::Model`] when a garment cannot be meshed or a frame would take too many steps, [`Error::Body`] when a body
-    /// leads to no map_box. What does not fit the device is told by [`Simulation::advance`].
+    /// leads to no place. What does not fit the device is told by [`Simulation::advance`].
     pub fn new(device: &wgpu::Device, scene: &Scene) -> Result<Self, Error> {
         let pieces = Piece::all(scene)?;
         let way = match moving_body(scene) {
@@ -295,7 +257,7 @@ impl Simulation {
             return Ok(0);
         };
         if dressed.fitting.is_none() {
-            let Some(inner) = known_bounds(&self.device, &mut dressed.done, recorder)? else { return Ok(0) };
+            let Some(inner) = dressed.known_bounds(&self.device, recorder)? else { return Ok(0) };
             let Phase::Dressing(dressed) = &self.phase else { return Ok(0) };
             let maps = self.draw_still_maps(&dressed.done, &inner, recorder)?;
             let Phase::Dressing(dressed) = &mut self.phase else { return Ok(0) };
@@ -365,7 +327,7 @@ impl Simulation {
             && self.pieces.len() > 1
         {
             // Maps of what nobody moves stand around where it hangs.
-            let Some(known) = known_bounds(&self.device, &mut dressed.done, recorder)? else { return Ok(()) };
+            let Some(known) = dressed.known_bounds(&self.device, recorder)? else { return Ok(()) };
             garment_bounds = known;
         }
         let mut outfit = self.outfit(stage, &garment_bounds)?;
@@ -542,16 +504,6 @@ impl Simulation {
     }
 }
 
-impl Bounds {
-    /// The box, where it has arrived.
-    pub(crate) fn known(&self) -> Option<[Vec3; 2]> {
-        match self {
-            Bounds::Known(bounds) => Some(*bounds),
-            Bounds::Unknown | Bounds::UnderWay(_) => None,
-        }
-    }
-}
-
 /// Frames from the pose that garments are sewn in to the start of the motion.
 fn way_frames(way: &MovingMesh, frame: f64) -> u64 {
     ((way.duration() + WAITING_SECONDS) / frame).ceil() as u64
@@ -568,29 +520,4 @@ fn moving_body(scene: &Scene) -> Option<&MovingMesh> {
 
 fn bounds_of(meshes: &[Mesh]) -> Vec<[Vec3; 2]> {
     meshes.iter().filter_map(Mesh::bounds).collect()
-}
-
-/// The boxes around all garments that are dressed, if they are known; otherwise they are asked for, and arrive with a later call.
-fn known_bounds(
-    device: &wgpu::Device,
-    done: &mut [Done],
-    recorder: &mut Recorder<'_>,
-) -> Result<Option<Vec<[Vec3; 2]>>, Error> {
-    for Done { cloth, bounds, .. } in done.iter_mut() {
-        if let Bounds::UnderWay(arrival) = bounds {
-            if let Some(bytes) = arrival.take() {
-                let positions = bytemuck::pod_collect_to_vec::<u8, Vec4>(&bytes);
-                let mesh = Mesh { positions: positions.iter().map(|p| p.truncate()).collect(), ..Mesh::default() };
-                *bounds = Bounds::Known(mesh.bounds().unwrap_or_default());
-            } else if arrival.is_over() {
-                *bounds = Bounds::Unknown;
-            }
-        }
-        if matches!(bounds, Bounds::Unknown) {
-            recorder(Part::Steps, &mut |encoder| {
-                *bounds = Bounds::UnderWay(Arrival::of(device, encoder, &cloth.frame().positions));
-            })?;
-        }
-    }
-    Ok(done.iter().map(|done| done.bounds.known()).collect())
 }

@@ -1,9 +1,11 @@
 //! The whole state of a simulation as bytes, from which it goes on bit for bit.
 
 use crate::clock::Clock;
+use crate::dressed::{Bounds, Done, Dressed};
 use crate::fitting::Fitting;
 use crate::outfit::Outfit;
-use crate::simulation::{Bounds, Done, Dressed, Phase, Simulation, Stage};
+use crate::simulation::{Phase, Simulation};
+use crate::stage::Stage;
 use crate::{Cloth, Colliders, Error};
 use glam::{Vec3, Vec4};
 use serde::{Deserialize, Serialize};
