@@ -1,10 +1,9 @@
 //! From garments and a body to a walk, without waiting.
 
-use crate::support::{advance, start, walking, woman};
+use crate::support::{advance, gpu, start, walking, woman};
 use std::collections::VecDeque;
 use toile::{Error, Simulation, Stage};
 use toile_model::DressingError;
-use toile_workspace::gpu;
 
 /// Frames that a host has under way, as a swap chain has.
 const FRAMES_UNDER_WAY: usize = 2;

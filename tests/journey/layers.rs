@@ -1,10 +1,9 @@
 //! Several bodies, several cloths.
 
-use crate::support::{advance, rolling, start};
+use crate::support::{advance, gpu, rolling, start};
 use glam::{DVec3, Vec3};
 use toile_lab::fixtures::scene;
 use toile_scene::{Body, Cloth, Mesh};
-use toile_workspace::gpu;
 
 fn farthest(simulation: &toile::Simulation, index: usize) -> f32 {
     let worn = simulation.cloths().nth(index).expect("a cloth");

@@ -1,9 +1,8 @@
 //! The whole state as bytes: a simulation goes on bit for bit, and only with its own.
 
-use crate::support::{advance, positions, rolling, start, walking};
+use crate::support::{advance, gpu, positions, rolling, start, walking};
 use toile::{Error, Simulation, Stage};
 use toile_scene::Scene;
-use toile_workspace::gpu;
 
 const FRAME: f64 = 1.0 / 60.0;
 

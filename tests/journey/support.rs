@@ -5,10 +5,20 @@ use toile::files::{BodyOptions, read_moving_body};
 use toile::{Advance, Simulation};
 use toile_lab::fixtures::{fixture, garment, scene, settings};
 use toile_scene::{Body, Cloth, Mesh, MovingMesh, RigidKey, Scene};
-use toile_workspace::{arrived, gpu};
+use toile_workspace::Gpu;
 
 /// Edge length of a texel of the maps [m]: these tests ask what happens, not how exactly.
 const TEXEL: f64 = 0.02;
+
+thread_local! {
+    static GPU: &'static Gpu =
+        Box::leak(Box::new(Gpu::open(wgpu::Backends::all()).unwrap_or_else(|fault| panic!("{fault}"))));
+}
+
+/// A device of this test alone: whole journeys on one device would wait for one another.
+pub fn gpu() -> &'static Gpu {
+    GPU.with(|gpu| *gpu)
+}
 
 /// Garments at 6 cm on the built-in woman, who walks by a clip.
 pub fn walking(garments: &[&str], clip: &str) -> Scene {
@@ -59,15 +69,12 @@ pub fn start(scene: &Scene) -> Simulation {
 pub fn advance(simulation: &mut Simulation, seconds: f64) -> Advance {
     let mut advance = Advance::default();
     gpu().run(|encoder| advance = simulation.advance(encoder, seconds).unwrap_or_else(|error| panic!("{error}")));
-    arrived("the status of the cloths", || {
-        let is_told = |cloth: &toile::Cloth| match cloth.status() {
-            Ok(Some(status)) => status.step == cloth.step(),
-            // Nothing is told of a cloth at its start; what is wrong is told by the next call.
-            Ok(None) => cloth.step() == 0,
-            Err(_) => true,
-        };
-        simulation.cloths().all(|worn| is_told(worn.cloth)).then_some(())
-    });
+    // Nothing is told of a cloth at its start; what is wrong is told by the next call.
+    let is_told = |cloth: &toile::Cloth| match cloth.status() {
+        Ok(told) => told.map_or(0, |status| status.step) == cloth.step(),
+        Err(_) => true,
+    };
+    assert!(simulation.cloths().all(|worn| is_told(worn.cloth)), "the device is done, and a status is missing");
     advance
 }
 
