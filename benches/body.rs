@@ -10,9 +10,9 @@ use glam::{DVec2, DVec3, Vec3};
 use std::sync::Arc;
 use std::time::Instant;
 use support::Bench;
-use toile::gpu::{BodyMaps, Surface};
+use toile::gpu::{BodyMaps, MapSpace, Surface};
 use toile::model::{MapBox, Model, StepSettings};
-use toile::scene::{Mesh, Sheet};
+use toile::scene::{MapKind, Mesh, Sheet};
 use toile::{Cloth, Colliders};
 use toile_lab::fixtures::sheet_settings;
 
@@ -31,20 +31,23 @@ fn main() {
     let bench = Bench::open();
     println!(
         "{:>10} {:>12} {:>14} {:>18} {:>14}",
-        "triangles", "step µs", "state copies", "sample_maps µs", "drawing maps µs"
+        "triangles", "step µs", "state copies", "sampling µs", "drawing maps µs"
     );
     for parallels in PARALLELS {
-        measure(&bench, &ellipsoid(parallels));
+        for kind in [MapKind::Sides, MapKind::Layers] {
+            measure(&bench, &ellipsoid(parallels), kind);
+        }
     }
 }
 
-fn measure(bench: &Bench, body: &Mesh) {
+fn measure(bench: &Bench, body: &Mesh, kind: MapKind) {
     let scene = sheet_settings();
     let bounds = body.bounds().expect("an ellipsoid has vertices");
     let thickness = scene.fabric.thickness as f32;
     let map_box = MapBox::around([bounds[0] - thickness, bounds[1] + thickness], scene.texel as f32);
-    let maps = BodyMaps::new(&bench.device, map_box, false).unwrap_or_else(|error| panic!("{error}"));
-    let surface = Surface::new(&bench.device, body);
+    let space = MapSpace { kind, map_box, moving: false, area: body.area() };
+    let maps = BodyMaps::new(&bench.device, &space).unwrap_or_else(|error| panic!("{error}"));
+    let surface = Surface::new(&bench.device, body, map_box.texel);
     let drawing = (0..10)
         .map(|_| run(bench, |encoder| maps.record(&bench.device, encoder, map_box, &[(&surface, thickness)])))
         .fold(f64::INFINITY, f64::min);
@@ -67,7 +70,7 @@ fn measure(bench: &Bench, body: &Mesh) {
         run(bench, |encoder| cloth.record(&bench.device, encoder));
     }
     let cost = bench.step_cost(&mut cloth, STEPS);
-    let sampling = cost.kernels.iter().find(|(name, ..)| *name == "sample_maps").expect("a body has maps").2;
+    let sampling = cost.kernels.iter().find(|(name, ..)| ["sample_sides", "sample_layers"].contains(name)).expect("a body has maps").2;
     println!(
         "{:>10} {:>12.1} {:>14.2} {:>18.1} {:>14.1}",
         body.triangles.len(),

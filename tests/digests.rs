@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use toile_lab::fixtures::{GARMENTS, SCENES, body, garment, scene, settings, shapes, sheet_model};
 use toile_model::{Merge, Model, StepSettings};
-use toile_reference::maps::{Surface, render_maps};
+use toile_reference::maps::{BodyMaps, Surface};
 use toile_reference::{Colliders, Reference};
 
 #[test]
@@ -14,8 +14,8 @@ fn digests_of_the_garments() {
         let settings = settings(0.06);
         let open = Model::from_garment(&garment(name), &settings).expect("it meshes");
         let step = StepSettings::new(&settings, &open);
-        let maps =
-            render_maps(&[Surface { mesh: &body, thickness: step.thickness, velocities: None }], settings.texel as f32);
+        let surface = Surface { mesh: &body, thickness: step.thickness, velocities: None, open: false };
+        let maps = BodyMaps::around(settings.maps, &[surface], settings.texel as f32);
         let mut reference = Reference::new(&open, &step.sewing(), Colliders { maps: Some(maps), shapes: Vec::new() });
         (0..5).for_each(|_| reference.frame());
         writeln!(text, "{name}, sewn for 5 frames\n{}", reference.digest()).expect("a string grows");

@@ -3,10 +3,10 @@
 use glam::{DVec3, Vec3};
 use toile::{Cloth, Colliders};
 use toile_gpu::Solver;
-use toile_lab::Layers;
+use toile_lab::{DrawnMaps, read_maps};
 use toile_lab::fixtures::{garment, settings};
 use toile_model::{Merge, Model, StepSettings};
-use toile_scene::Mesh;
+use toile_scene::{MapKind, Mesh};
 use toile_workspace::{advance, arrived, finish_frame, gpu};
 
 /// The skirt, its models and the steps of both.
@@ -118,17 +118,23 @@ fn a_cloth_can_be_drawn_into_the_maps_of_the_next_one() {
     let mut cloth =
         Cloth::new(&gpu().device, &skirt.open, &skirt.sewing, Default::default()).expect("it fits the device");
     advance(&mut cloth).expect("it stays finite");
-    let empty = Layers::draw(gpu(), &[(&Mesh::sphere(Vec3::new(0.0, 0.9, 0.0), 0.5, 8), 0.0)], 0.02)
-        .expect("the device answers");
-    let drawn = |maps: &toile_gpu::BodyMaps| {
-        let depth = toile_gpu::readback::read_depth(&gpu().device, &gpu().queue, maps).expect("the device answers");
-        depth[0].iter().filter(|depth| **depth < 1.0).count()
+    let sphere = Mesh::sphere(Vec3::new(0.0, 0.9, 0.0), 0.5, 8);
+    let seen = DrawnMaps::draw(gpu(), MapKind::Layers, &[(&sphere, 0.0)], 0.02).expect("the device answers");
+    let map_box = seen.maps.space().map_box;
+    let counts = |maps: &toile_reference::maps::BodyMaps| {
+        let toile_reference::maps::BodyMaps::Layers(layers) = maps else { panic!("the maps are layered") };
+        let ends: u32 = layers.columns.iter().map(|column| column.end_count).sum();
+        let sheets: u32 = layers.columns.iter().map(|column| column.sheet_count).sum();
+        [ends, sheets]
     };
-    let sphere = drawn(&empty.maps);
-    let surface = toile_gpu::Surface::from(cloth.frame());
-    gpu().run(|encoder| empty.maps.record(&gpu().device, encoder, empty.read.map_box, &[(&surface, 0.002)]));
-    let cloth = drawn(&empty.maps);
-    assert!(cloth > 100 && cloth != sphere, "{cloth} texels see the cloth");
+    let [ends, sheets] = counts(&seen.read);
+    assert!(ends > 1000 && sheets == 0, "a sphere is closed");
+    let surface = cloth.frame().surface(&gpu().device);
+    gpu().run(|encoder| seen.maps.record_over(&gpu().device, encoder, &[(&surface, 0.002)]));
+    let over = read_maps(gpu(), &seen.maps, map_box).expect("the device answers");
+    let [still, cloth] = counts(&over);
+    assert_eq!(still, ends, "the sphere is seen as before");
+    assert!(cloth > 1000, "{cloth} layers of cloth");
 }
 
 /// Nothing waits and nothing is mapped in the frame loop: frames may be recorded before any is submitted, more of them than

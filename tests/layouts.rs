@@ -3,7 +3,7 @@
 use encase::{ShaderType, StorageBuffer, internal::CreateFrom, internal::ReadFrom, internal::WriteInto};
 use std::collections::BTreeMap;
 use std::fmt::{Debug, Write};
-use toile_kernels::{Interface, Resource, StructLayout, TABLE, render_maps_source, structs};
+use toile_kernels::{Interface, Resource, StructLayout, TABLE, render_sides_source, structs};
 use toile_workspace::{Compute, gpu};
 
 /// Calls a macro with every struct that Rust and WGSL share.
@@ -21,8 +21,12 @@ macro_rules! for_every_struct {
             Midpoint,
             Probe,
             Contact,
-            MapBox,
+            SideBox,
             Side,
+            LayerBox,
+            Drawn,
+            Crossing,
+            LayerCounts,
             Shape,
             Lag,
             Vertices,
@@ -87,7 +91,7 @@ fn encase_and_naga_lay_out_every_struct_alike() {
 
 /// The WGSL declaration of a struct, with plain instead of atomic words, and its fields with their types.
 fn declaration(name: &str) -> (String, Vec<(String, String)>) {
-    let sources = TABLE.iter().map(|row| row.kernel.source()).chain([render_maps_source()]);
+    let sources = TABLE.iter().map(|row| row.kernel.source()).chain([render_sides_source()]);
     let opening = format!("struct {name} {{");
     let source = sources.into_iter().find(|source| source.contains(&opening)).expect("a kernel declares the struct");
     let start = source.find(&opening).expect("it does");
@@ -207,6 +211,10 @@ fn kernel_interfaces() {
                 Resource::Storage { written: true, stride } => format!("written, {stride} bytes each"),
                 Resource::DepthTexture => "depth texture".to_owned(),
                 Resource::FloatTexture => "float texture".to_owned(),
+                Resource::FlatTexture { whole: false } => "flat texture of floats".to_owned(),
+                Resource::FlatTexture { whole: true } => "flat texture of whole numbers".to_owned(),
+                Resource::WrittenTexture { whole: false } => "written texture of floats".to_owned(),
+                Resource::WrittenTexture { whole: true } => "written texture of whole numbers".to_owned(),
             };
             writeln!(text, "  {} {}: {what}", binding.number, binding.name).expect("text");
         }

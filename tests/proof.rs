@@ -6,6 +6,7 @@ use toile_kernels::Kernel;
 use toile_lab::kernels::Seeds;
 use toile_lab::scenes::{body, fabric, square};
 use toile_model::{Model, StepSettings};
+use toile_reference::maps::BodyMaps;
 use toile_reference::{Colliders, ObjectSpace, Reference};
 use toile_report::experiments::hard_cases::CASES;
 use toile_report::experiments::object_space::{Collision, Life, compare, image};
@@ -113,7 +114,7 @@ fn the_life_of_the_comparison_is_that_of_the_reference() {
     let collision = image(&ball);
     let Collision::Image(maps) = collision.clone() else { panic!("maps") };
     let mut life = Life::new(&model, &step, &collision);
-    let mut reference = Reference::new(&model, &step, Colliders { maps: Some(maps), shapes: Vec::new() });
+    let mut reference = Reference::new(&model, &step, Colliders { maps: Some(BodyMaps::Sides(maps)), shapes: Vec::new() });
     for _ in 0..100 {
         life.step();
         reference.step();

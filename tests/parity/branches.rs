@@ -165,7 +165,8 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
             see("is a triangle", before.model.quads.iter().filter(|q| q[3] == NO_CORNER).count());
             see("is a quad", before.model.quads.iter().filter(|q| q[3] != NO_CORNER).count());
         }
-        Kernel::SampleMaps | Kernel::SampleMovingMaps => maps(before, after, &mut see),
+        Kernel::SampleSides | Kernel::SampleMovingSides => sides(before, after, &mut see),
+        Kernel::SampleLayers | Kernel::SampleMovingLayers => layers(before, after, &mut see),
         Kernel::MorphBody => {
             let targets = |i: usize| before.morphs().offsets[i + 1] - before.morphs().offsets[i];
             let vertices = || 0..before.skin.positions.len();
@@ -330,8 +331,8 @@ fn wind(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize)
     names.into_iter().zip(counts).for_each(|(name, count)| see(name, count));
 }
 
-fn maps(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize)) {
-    let maps = &before.layers.read;
+fn sides(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize)) {
+    let maps = before.sides.sides();
     let map_box = maps.map_box;
     let [points, velocities] = before.points();
     let mut counts = [0; 8];
@@ -357,7 +358,7 @@ fn maps(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize)
     let swept = StepSettings { swept: true, ..before.settings.clone() };
     let unswept = StepSettings { swept: false, ..before.settings.clone() };
     let [with, without] = [swept, unswept]
-        .map(|settings| toile_reference::step::sample_moving_maps(&points, &velocities, maps, before.lag, &settings));
+        .map(|settings| toile_reference::step::sample_moving_sides(&points, &velocities, maps, before.lag, &settings));
     let differs = with.iter().zip(&without).filter(|(a, b)| a != b && a.distance.is_finite()).count();
     see("is answered where it enters", differs);
     let names = [
@@ -371,6 +372,31 @@ fn maps(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize)
         "is on the border of a texel",
     ];
     names.into_iter().zip(counts).for_each(|(name, count)| see(name, count));
+}
+
+fn layers(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize)) {
+    let maps = before.layers.layers();
+    let [points, velocities] = before.points();
+    let under = |axis: usize, point: Vec3| maps.column_under(axis, point).unwrap_or_default();
+    let all = || points.iter().zip(&after.probes);
+    see("is no number", points.iter().filter(|point| point.is_nan()).count());
+    see("is beside all maps", points.iter().filter(|p| (0..3).all(|axis| under(axis, **p).end_count == 0)).count());
+    for (name, axis) in [("meets a body along x", 0), ("meets a body along y", 1), ("meets a body along z", 2)] {
+        see(name, points.iter().filter(|point| under(axis, **point).end_count > 0).count());
+    }
+    see("meets two bodies along z", points.iter().filter(|point| under(2, **point).end_count > 2).count());
+    see("is inside", all().filter(|(_, probe)| probe.hit && probe.distance < -before.settings.thickness).count());
+    see("is outside and near", all().filter(|(_, probe)| probe.hit && probe.distance > 0.0).count());
+    see("is out of reach", all().filter(|(point, probe)| point.is_finite() && !probe.hit).count());
+    // The sheet lies above the bodies.
+    let by_sheet = |point: Vec3, probe: &Probe| probe.hit && point.y > 0.44 && probe.normal.distance(Vec3::Y) < 1e-3;
+    see("is answered by the sheet", all().filter(|(point, probe)| by_sheet(**point, probe)).count());
+    let [swept, unswept] =
+        [true, false].map(|swept| StepSettings { swept, ..before.settings.clone() }).map(|settings| {
+            toile_reference::step::sample_moving_layers(&points, &velocities, maps, before.lag, &settings)
+        });
+    let differs = swept.iter().zip(&unswept).filter(|(a, b)| a != b && a.distance.is_finite()).count();
+    see("is answered where it enters", differs);
 }
 
 fn shapes(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize)) {

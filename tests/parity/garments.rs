@@ -2,10 +2,10 @@
 
 use crate::life::Life;
 use std::sync::OnceLock;
-use toile_lab::Layers;
+use toile_lab::DrawnMaps;
 use toile_lab::fixtures::{body, garment, settings};
 use toile_model::{Model, StepSettings};
-use toile_scene::{Fabric, Settings};
+use toile_scene::{MapKind, Fabric, Settings};
 use toile_workspace::gpu;
 
 const SPACING: f64 = 0.03;
@@ -13,10 +13,10 @@ const SPACING: f64 = 0.03;
 /// Frames on each side of the handover.
 const FRAMES: u32 = 4;
 
-fn layers(settings: &Settings) -> &'static Layers {
-    static LAYERS: OnceLock<Layers> = OnceLock::new();
+fn layers(settings: &Settings) -> &'static DrawnMaps {
+    static LAYERS: OnceLock<DrawnMaps> = OnceLock::new();
     LAYERS.get_or_init(|| {
-        Layers::draw(gpu(), &[(&body(), settings.fabric.thickness as f32)], settings.texel as f32)
+        DrawnMaps::draw(gpu(), MapKind::Layers, &[(&body(), settings.fabric.thickness as f32)], settings.texel as f32)
             .expect("the device answers")
     })
 }

@@ -28,7 +28,7 @@ impl Inputs for Many {
         }
     }
 
-    fn maps(&self) -> Option<&BodyMaps> {
+    fn maps(&self, _: &str) -> Option<&BodyMaps> {
         None
     }
 }

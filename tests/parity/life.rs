@@ -2,7 +2,7 @@
 
 use crate::drivers::{FLUSHES, first_beyond};
 use toile_gpu::{Colliders, Solver};
-use toile_lab::Layers;
+use toile_lab::DrawnMaps;
 use toile_lab::kernels::vec3_words;
 use toile_model::{Merge, Model, Status, StepSettings};
 use toile_reference::Reference;
@@ -35,7 +35,7 @@ pub struct Life {
 }
 
 impl Life {
-    pub fn new(model: &Model, settings: &StepSettings, layers: Option<&Layers>, shapes: Vec<Shape>) -> Self {
+    pub fn new(model: &Model, settings: &StepSettings, layers: Option<&DrawnMaps>, shapes: Vec<Shape>) -> Self {
         let colliders = Colliders { maps: layers.map(|layers| layers.maps.as_ref()), shapes: shapes.clone() };
         let solver = Solver::new(&gpu().device, model, settings, colliders).expect("the model fits the device");
         let maps = layers.map(|layers| layers.read.clone());
@@ -109,7 +109,7 @@ impl Life {
     }
 
     /// The handover to the sewn model on both sides.
-    pub fn sewn(self, model: &Model, merge: &Merge, settings: &StepSettings, layers: Option<&Layers>) -> Self {
+    pub fn sewn(self, model: &Model, merge: &Merge, settings: &StepSettings, layers: Option<&DrawnMaps>) -> Self {
         let colliders = Colliders { maps: layers.map(|layers| layers.maps.as_ref()), shapes: Vec::new() };
         let mut solver = Solver::new(&gpu().device, model, settings, colliders).expect("the model fits the device");
         gpu().run(|encoder| solver.record_merge(&gpu().device, encoder, &self.solver, merge));

@@ -16,9 +16,9 @@ fn agrees(kernel: Kernel, input: Input) {
 /// Particles that dive into the surfaces; the middle of the way of each lies on a corner of four texels, as exactly as its start can be
 /// written.
 fn dive_through_corners() -> Input {
-    let mut input = input(Kernel::SampleMaps, 1757, Variant::Coulomb);
+    let mut input = input(Kernel::SampleSides, 1757, Variant::Coulomb);
     let random = &mut Random::new(1);
-    let (maps, dt) = (&input.layers.read, input.settings.dt);
+    let (maps, dt) = (input.sides.sides().clone(), input.settings.dt);
     let map_box = maps.map_box;
     let seen: Vec<usize> = (0..maps.depth[0].len()).filter(|texel| maps.depth[0][*texel] < 1.0).collect();
     for (position, velocity) in input.particles.positions.iter_mut().zip(&mut input.particles.velocities) {
@@ -39,7 +39,7 @@ fn dive_through_corners() -> Input {
 
 #[test]
 fn ways_over_the_corners_of_texels_agree() {
-    agrees(Kernel::SampleMaps, dive_through_corners());
+    agrees(Kernel::SampleSides, dive_through_corners());
 }
 
 /// Strands like those of worn cloth: almost straight, a little too long, and of uneven masses.

@@ -5,13 +5,15 @@ use crate::look::{Look, State};
 use anyhow::{Context, Result, bail};
 use toile::Stage;
 use toile::model::{Dressing, DressingError, DressingStage, Merge, Open, Piece, StepSettings};
-use toile::scene::{Mesh, Scene, Shape};
-use toile_reference::maps::{Surface, render_maps};
+use toile::scene::{MapKind, Mesh, Scene, Shape};
+use toile_reference::maps::{BodyMaps, Surface};
 use toile_reference::{Colliders, Reference};
 
 /// A scene by the CPU reference.
 pub struct ReferenceRun {
-    layers: Vec<Mesh>,
+    /// What the next garment lies on, each with whether it is open by what it is.
+    layers: Vec<(Mesh, bool)>,
+    maps: MapKind,
     thickness: f32,
     texel: f32,
     shapes: Vec<Shape>,
@@ -37,7 +39,8 @@ impl ReferenceRun {
             bail!("--backend reference: it runs one sheet, or garments; leave the other cloths of {} out", scene.name);
         }
         let mut run = Self {
-            layers: meshes(scene).cloned().collect(),
+            layers: meshes(scene).map(|mesh| (mesh.clone(), false)).collect(),
+            maps: settings.maps,
             thickness: settings.fabric.thickness as f32,
             texel: settings.texel as f32,
             shapes: shapes(scene),
@@ -51,9 +54,10 @@ impl ReferenceRun {
     /// Puts the next cloth where it starts.
     fn begin(&mut self) {
         let Some(piece) = self.pieces.get(self.worn.len()) else { return };
-        let surface = |mesh| Surface { mesh, thickness: self.thickness, velocities: None };
-        let surfaces: Vec<_> = self.layers.iter().map(surface).collect();
-        let maps = (!surfaces.is_empty()).then(|| render_maps(&surfaces, self.texel));
+        let thickness = self.thickness;
+        let drawn = self.layers.iter().map(|(mesh, open)| Surface { mesh, thickness, velocities: None, open: *open });
+        let surfaces: Vec<_> = drawn.collect();
+        let maps = (!surfaces.is_empty()).then(|| BodyMaps::around(self.maps, &surfaces, self.texel));
         let colliders = Colliders { maps, shapes: self.shapes.clone() };
         self.worn.push(match &piece.open {
             None => Worn {
@@ -104,7 +108,7 @@ impl ReferenceRun {
         }
         if dressing.stage() == DressingStage::Dressed && !is_last {
             let (positions, normals) = (worn.reference.positions().to_vec(), worn.reference.normals());
-            self.layers.push(Mesh { positions, normals, triangles: piece.model.triangles() });
+            self.layers.push((Mesh { positions, normals, triangles: piece.model.triangles() }, true));
             self.begin();
         }
         Ok(steps)

@@ -222,7 +222,7 @@ fn collision_part(gpu: &Gpu, simulation: &mut Simulation) -> Result<f64> {
                 Kernel::StateCopy => continue,
                 Kernel::Reaction
                 | Kernel::QuadMidpoints
-                | Kernel::SampleMovingMaps
+                | Kernel::SampleMovingSides
                 | Kernel::Collide
                 | Kernel::KeepOut => {
                     collision += time.milliseconds;

@@ -11,7 +11,7 @@ use crate::error::{FileError, Found, Place};
 use crate::garment::read_garment;
 use crate::scene::problem::Problem;
 use crate::scene::scene_toml::{
-    CornerToml, FrictionToml, PinToml, PolishToml, RuleToml, SceneToml, SheetToml, WindToml,
+    CornerToml, FrictionToml, MapsToml, PinToml, PolishToml, RuleToml, SceneToml, SheetToml, WindToml,
 };
 use crate::scene::value::{SIZES, vector, within, wrong};
 use crate::source;
@@ -19,7 +19,7 @@ use glam::DVec2;
 use std::ops::RangeInclusive;
 use std::path::Path;
 use toile_scene::{
-    Body, Cloth, Fabric, Friction, Pin, Polish, Rule, Scene, Settings, Sheet, VelocityModification, Wind,
+    Body, Cloth, Fabric, Friction, MapKind, Pin, Polish, Rule, Scene, Settings, Sheet, VelocityModification, Wind,
 };
 
 /// Frames of a scene that does not say: two seconds at 60 per second.
@@ -117,6 +117,11 @@ fn settings(toml: &SceneToml, folder: &Path) -> Result<Settings, Problem> {
         gravity: vector("gravity", toml.gravity.unwrap_or(default.gravity.to_array()))?,
         wind: toml.wind.as_ref().map(convert_wind).transpose()?,
         spacing: within("spacing", toml.spacing.unwrap_or(default.spacing), Settings::SPACINGS, "m")?,
+        maps: match toml.maps {
+            None => default.maps,
+            Some(MapsToml::Layers) => MapKind::Layers,
+            Some(MapsToml::Sides) => MapKind::Sides,
+        },
         texel: within("texel", toml.texel.unwrap_or(default.texel), Settings::TEXELS, "m")?,
         frame_rate: within(
             "frame_rate",

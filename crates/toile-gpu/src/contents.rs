@@ -4,7 +4,7 @@ use crate::step_params;
 use encase::{ShaderType, StorageBuffer, UniformBuffer, internal::WriteInto};
 use glam::{Vec3, Vec4};
 use toile_kernels::structs;
-use toile_model::{Attachment, Hold, Limit, Link, MapBox, Model, SeamPair, ShapeStep, StepSettings, Strand};
+use toile_model::{Attachment, Hold, Limit, Link, MapBox, Model, SeamPair, ShapeStep, SideBox, StepSettings, Strand};
 use toile_scene::{Displacement, Influence, Polish};
 
 /// Bytes of the buffer of a name that a model and the settings of its step decide; `None` for the others. `after_maps` when shapes are
@@ -127,14 +127,23 @@ encode! {
         spin: shape.spin,
         axis: shape.axis,
     }
-    |map_box: MapBox| MapBox {
-        origin_x: map_box.origin_x,
-        origin_y: map_box.origin_y,
+    |side_box: SideBox| SideBox {
+        origin_x: side_box.origin_x,
+        origin_y: side_box.origin_y,
+        texel: side_box.texel,
+        z_front: side_box.z_front,
+        z_back: side_box.z_back,
+        columns: side_box.columns,
+        rows: side_box.rows,
+    }
+    |map_box: MapBox| LayerBox {
+        low: Vec3::from(map_box.low.map(|first| first as f32)),
         texel: map_box.texel,
-        z_front: map_box.z_front,
-        z_back: map_box.z_back,
-        columns: map_box.columns,
-        rows: map_box.rows,
+        size_x: map_box.size[0],
+        size_y: map_box.size[1],
+        size_z: map_box.size[2],
+        texels_per_metre: 1.0 / map_box.texel,
+        column_count: map_box.texel_counts().iter().sum::<u64>() as u32,
     }
     |influence: Influence| Influence { joint: influence.joint, weight: influence.weight }
     |displacement: Displacement| Displacement {

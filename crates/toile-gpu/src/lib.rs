@@ -21,7 +21,7 @@ mod timing;
 mod trail;
 
 pub use error::GpuError;
-pub use maps::{BodyMaps, Surface};
+pub use maps::{BodyMaps, MapSpace, MapsFault, Surface};
 pub use moving_body::MovingBody;
 pub use needs::Maps;
 pub use plan::{KernelRuns, Pass, Plan, kernel_runs};

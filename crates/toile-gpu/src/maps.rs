@@ -1,185 +1,111 @@
-//! The depth, normal and velocity maps of the bodies: rendered on the GPU, never leaving it in a run. W §4.
+//! The maps of the bodies, of either kind: drawn on the GPU, never leaving it in a run. W §4.
+
+mod layer_maps;
+mod side_maps;
+mod surface;
+
+pub use surface::Surface;
+pub(crate) use surface::padded;
 
 use crate::GpuError;
-use crate::contents::{Encode, uniform};
 use crate::limits::check_limits;
-use std::sync::{Mutex, PoisonError};
-use toile_kernels::{render_maps_source, structs};
+use layer_maps::LayerMaps;
+use side_maps::SideMaps;
+use thiserror::Error;
 use toile_model::MapBox;
-use toile_scene::Mesh;
-use wgpu::util::DeviceExt;
+use toile_scene::MapKind;
 
-const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-const COLOUR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
+/// Layers for each texel of area that a surface has: one that lies across all three axes is met by √3 columns.
+const LAYERS_PER_TEXEL: f64 = 1.74;
+/// Layers that are always there, for what rounding adds on small surfaces.
+const LAYERS_MIN: u64 = 4096;
 
-/// A triangle mesh on the device, as the maps draw it: a body, or a garment that lies under another one.
-#[derive(Clone, Debug)]
-pub struct Surface {
-    /// Positions [m], vec4 each, xyz used; usage `VERTEX`.
-    pub positions: wgpu::Buffer,
-    /// Unit normals, vec4 each, xyz used; usage `VERTEX`.
-    pub normals: wgpu::Buffer,
-    /// Velocities [m/s], vec4 each, xyz used; usage `VERTEX`. Maps of moving bodies need them of every surface.
-    pub velocities: Option<wgpu::Buffer>,
-    /// Vertex indices (u32), three per triangle; usage `INDEX`.
-    pub indices: wgpu::Buffer,
-    /// Number of indices.
-    pub index_count: u32,
+/// What maps must hold.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MapSpace {
+    /// How they see bodies.
+    pub kind: MapKind,
+    /// Where they stand; its size stays.
+    pub map_box: MapBox,
+    /// Whether anything in them moves.
+    pub moving: bool,
+    /// Largest area of all surfaces together [m²]; the papers' maps do not ask for it.
+    pub area: f64,
 }
 
-impl Surface {
-    /// Uploads a mesh at rest.
-    pub fn new(device: &wgpu::Device, mesh: &Mesh) -> Self {
-        let vertices = |label, values: &[glam::Vec3]| {
-            create(device, label, bytemuck::cast_slice(&padded(values)), wgpu::BufferUsages::VERTEX)
-        };
-        Self {
-            positions: vertices("surface positions", &mesh.positions),
-            normals: vertices("surface normals", &mesh.normals),
-            velocities: None,
-            indices: Self::indices(device, mesh),
-            index_count: 3 * mesh.triangles.len() as u32,
+impl MapSpace {
+    /// Most layers of the layered maps.
+    pub(crate) fn crossing_capacity(&self) -> u64 {
+        let texel = f64::from(self.map_box.texel);
+        LAYERS_MIN + (LAYERS_PER_TEXEL * self.area / (texel * texel)).ceil() as u64
+    }
+
+    /// Bytes of maps over it. It needs no device.
+    pub fn bytes(&self) -> u64 {
+        match self.kind {
+            MapKind::Sides => SideMaps::bytes_over(&self.map_box, self.moving),
+            MapKind::Layers => LayerMaps::bytes_over(self),
         }
     }
-
-    /// The same mesh as one of maps of moving bodies sees it: with velocities, which are zero.
-    pub fn at_rest(device: &wgpu::Device, mesh: &Mesh) -> Self {
-        let zeros = vec![0; 16 * mesh.positions.len()];
-        let velocities = create(device, "surface velocities", &zeros, wgpu::BufferUsages::VERTEX);
-        Self { velocities: Some(velocities), ..Self::new(device, mesh) }
-    }
-
-    pub(crate) fn indices(device: &wgpu::Device, mesh: &Mesh) -> wgpu::Buffer {
-        create(device, "surface indices", bytemuck::cast_slice(&mesh.triangles), wgpu::BufferUsages::INDEX)
-    }
 }
 
-/// Vectors as the device holds them: four words each.
-pub(crate) fn padded(values: &[glam::Vec3]) -> Vec<glam::Vec4> {
-    values.iter().map(|v| v.extend(0.0)).collect()
+/// What did not fit into layered maps: the bodies have holes there.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Error)]
+#[error(
+    "the maps lost {lost_crossings} crossings of their columns, {dropped_triangles} triangles that are not finite or more than \
+     4000 texels away, and {crowded_columns} columns with more than 32 surfaces one behind the other; use a larger texel"
+)]
+pub struct MapsFault {
+    /// Crossings beyond the capacity.
+    pub lost_crossings: u64,
+    /// Triangles with a vertex too far away or without a place.
+    pub dropped_triangles: u32,
+    /// Columns with more crossings than can be told apart.
+    pub crowded_columns: u32,
 }
 
-fn create(device: &wgpu::Device, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
-    device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
-}
-
-/// The maps of everything that a cloth collides with, front and back: depth and normals, and of moving bodies velocities.
-///
-/// Layer 0 is seen from +z, layer 1 from −z; both have the same columns (x) and rows (−y). A texel that sees nothing has depth 1.
+/// The maps of everything that a cloth collides with.
 #[derive(Debug)]
 pub struct BodyMaps {
-    size: wgpu::Extent3d,
-    depth: Map,
-    normals: Map,
-    velocities: Option<Map>,
-    map_box_uniform: wgpu::Buffer,
-    pipeline: wgpu::RenderPipeline,
-    layout: wgpu::BindGroupLayout,
-    cameras: Mutex<Vec<Cameras>>,
+    space: MapSpace,
+    kind: Kind,
 }
 
-/// Most thicknesses whose cameras are kept: the garments of an outfit have one or a few.
-const CAMERAS_KEPT: usize = 8;
-
-/// The front and the back camera for a thickness, which never change: commands that are recorded already keep theirs.
 #[derive(Debug)]
-struct Cameras {
-    thickness: f32,
-    sides: [wgpu::BindGroup; 2],
-}
-
-/// A texture of two layers.
-#[derive(Debug)]
-struct Map {
-    texture: wgpu::Texture,
-    layers: wgpu::TextureView,
-    sides: [wgpu::TextureView; 2],
-}
-
-impl Map {
-    fn new(device: &wgpu::Device, label: &str, format: wgpu::TextureFormat, size: wgpu::Extent3d) -> Self {
-        let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some(label),
-            size,
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT
-                | wgpu::TextureUsages::TEXTURE_BINDING
-                | wgpu::TextureUsages::COPY_DST
-                | wgpu::TextureUsages::COPY_SRC,
-            view_formats: &[],
-        });
-        let layers = texture.create_view(&wgpu::TextureViewDescriptor {
-            dimension: Some(wgpu::TextureViewDimension::D2Array),
-            ..Default::default()
-        });
-        let sides = [0, 1].map(|side| {
-            texture.create_view(&wgpu::TextureViewDescriptor {
-                dimension: Some(wgpu::TextureViewDimension::D2),
-                base_array_layer: side,
-                array_layer_count: Some(1),
-                ..Default::default()
-            })
-        });
-        Self { texture, layers, sides }
-    }
-
-    fn colour(&self, side: usize, load: wgpu::LoadOp<wgpu::Color>) -> Option<wgpu::RenderPassColorAttachment<'_>> {
-        Some(wgpu::RenderPassColorAttachment {
-            view: &self.sides[side],
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
-        })
-    }
+enum Kind {
+    Sides(Box<SideMaps>),
+    Layers(Box<LayerMaps>),
 }
 
 impl BodyMaps {
-    /// Empty maps as large as a box, of bodies at rest or of moving ones.
+    /// Empty maps.
     ///
     /// # Errors
-    /// [`GpuError::MapTooLarge`] when the box has more texels on a side than the device's textures, [`GpuError::LimitTooLow`] when the
-    /// device has less than the render pass needs.
-    pub fn new(device: &wgpu::Device, map_box: MapBox, moving: bool) -> Result<Self, GpuError> {
+    /// [`GpuError::MapTooLarge`] and [`GpuError::BufferTooLarge`] when they do not fit the device, [`GpuError::LimitTooLow`] when the device has
+    /// less than their passes need.
+    pub fn new(device: &wgpu::Device, space: &MapSpace) -> Result<Self, GpuError> {
         check_limits(device)?;
-        let available = device.limits().max_texture_dimension_2d;
-        if map_box.columns.max(map_box.rows) > available {
-            return Err(GpuError::MapTooLarge { columns: map_box.columns, rows: map_box.rows, available });
-        }
-        let size = wgpu::Extent3d { width: map_box.columns, height: map_box.rows, depth_or_array_layers: 2 };
-        let (layout, pipeline) = create_pipeline(device, moving);
-        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
-        Ok(Self {
-            size,
-            depth: Map::new(device, "depth map", DEPTH_FORMAT, size),
-            normals: Map::new(device, "normal map", COLOUR_FORMAT, size),
-            velocities: moving.then(|| Map::new(device, "velocity map", COLOUR_FORMAT, size)),
-            map_box_uniform: create(device, "map_box", &uniform(&map_box.encode()), usage),
-            pipeline,
-            layout,
-            cameras: Mutex::default(),
-        })
+        let kind = match space.kind {
+            MapKind::Sides => Kind::Sides(Box::new(SideMaps::new(device, space.map_box, space.moving)?)),
+            MapKind::Layers => Kind::Layers(Box::new(LayerMaps::new(device, space)?)),
+        };
+        Ok(Self { space: space.clone(), kind })
     }
 
-    /// Empty maps of the same size and kind, which share the pipeline of these.
-    pub fn new_alike(&self, device: &wgpu::Device) -> Self {
-        let map = |label, format| Map::new(device, label, format, self.size);
-        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
-        Self {
-            size: self.size,
-            depth: map("depth map", DEPTH_FORMAT),
-            normals: map("normal map", COLOUR_FORMAT),
-            velocities: self.is_moving().then(|| map("velocity map", COLOUR_FORMAT)),
-            map_box_uniform: create(device, "map_box", &vec![0; self.map_box_uniform.size() as usize], usage),
-            pipeline: self.pipeline.clone(),
-            layout: self.layout.clone(),
-            cameras: Mutex::default(),
-        }
+    /// Empty maps of the same size and kind, which share the pipelines of these.
+    ///
+    /// # Errors
+    /// As [`BodyMaps::new`].
+    pub fn new_alike(&self, device: &wgpu::Device) -> Result<Self, GpuError> {
+        let kind = match &self.kind {
+            Kind::Sides(maps) => Kind::Sides(Box::new(maps.new_alike(device))),
+            Kind::Layers(maps) => Kind::Layers(Box::new(maps.new_alike(device)?)),
+        };
+        Ok(Self { space: self.space.clone(), kind })
     }
 
-    /// Records the drawing of all surfaces into a box, each offset along its normals by the thickness beside it [m].
+    /// Records the drawing of all surfaces into a box. The papers' maps move each out along its normals by the thickness beside it [m]; where points
+    /// meet layered maps, the thickness of the cloth is taken off.
     ///
     /// # Panics
     /// When the box has another size than these maps, or a surface in maps of moving bodies has no velocities.
@@ -190,8 +116,10 @@ impl BodyMaps {
         map_box: MapBox,
         surfaces: &[(&Surface, f32)],
     ) {
-        self.place(device, encoder, map_box);
-        self.draw(device, encoder, surfaces, true);
+        match &self.kind {
+            Kind::Sides(maps) => maps.record(device, encoder, map_box, surfaces),
+            Kind::Layers(maps) => maps.record(device, encoder, map_box, surfaces.iter().map(|(surface, _)| *surface)),
+        }
     }
 
     /// Records the drawing of more surfaces over what the maps show already.
@@ -199,13 +127,16 @@ impl BodyMaps {
     /// # Panics
     /// When a surface in maps of moving bodies has no velocities.
     pub fn record_over(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, surfaces: &[(&Surface, f32)]) {
-        self.draw(device, encoder, surfaces, false);
+        match &self.kind {
+            Kind::Sides(maps) => maps.record_over(device, encoder, surfaces),
+            Kind::Layers(maps) => maps.record_over(device, encoder, surfaces.iter().map(|(surface, _)| *surface)),
+        }
     }
 
-    /// Records a copy of maps of the same size, which show the bodies in `map_box`.
+    /// Records a copy of maps of the same size and kind, which show the bodies in `map_box`.
     ///
     /// # Panics
-    /// When the other maps have another size, or only one of both shows velocities.
+    /// When the other maps are of another size or kind, or only one of both shows velocities.
     pub fn record_copy(
         &self,
         device: &wgpu::Device,
@@ -213,208 +144,78 @@ impl BodyMaps {
         other: &BodyMaps,
         map_box: MapBox,
     ) {
-        assert_eq!(self.size, other.size, "maps are copied into maps of the same size");
-        assert_eq!(self.is_moving(), other.is_moving(), "maps with and without velocities");
-        self.place(device, encoder, map_box);
-        let mut copy = |from: &Map, to: &Map| {
-            encoder.copy_texture_to_texture(from.texture.as_image_copy(), to.texture.as_image_copy(), self.size);
-        };
-        copy(&other.depth, &self.depth);
-        copy(&other.normals, &self.normals);
-        if let (Some(from), Some(to)) = (&other.velocities, &self.velocities) {
-            copy(from, to);
+        match (&self.kind, &other.kind) {
+            (Kind::Sides(maps), Kind::Sides(other)) => maps.record_copy(device, encoder, other, map_box),
+            (Kind::Layers(maps), Kind::Layers(other)) => maps.record_copy(device, encoder, other, map_box),
+            _ => panic!("maps are copied into maps of the same kind"),
         }
     }
 
-    fn place(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, map_box: MapBox) {
-        let size = [self.size.width, self.size.height];
-        assert_eq!([map_box.columns, map_box.rows], size, "the box has the size of the maps");
-        // A buffer of its own, not a queue write: the caller may record several frames before submitting any.
-        let upload = create(device, "map_box upload", &uniform(&map_box.encode()), wgpu::BufferUsages::COPY_SRC);
-        encoder.copy_buffer_to_buffer(&upload, 0, &self.map_box_uniform, 0, upload.size());
-    }
-
-    fn draw(
-        &self,
-        device: &wgpu::Device,
-        encoder: &mut wgpu::CommandEncoder,
-        surfaces: &[(&Surface, f32)],
-        anew: bool,
-    ) {
-        let colour_load = if anew { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { wgpu::LoadOp::Load };
-        let depth_load = if anew { wgpu::LoadOp::Clear(1.0) } else { wgpu::LoadOp::Load };
-        let cameras: Vec<_> = surfaces.iter().map(|(_, thickness)| self.cameras(device, *thickness)).collect();
-        for side in 0..2 {
-            let normals = self.normals.colour(side, colour_load);
-            let velocities = self.velocities.as_ref().and_then(|map| map.colour(side, colour_load));
-            let colours: Vec<_> = [normals, velocities].into_iter().filter(Option::is_some).collect();
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("render_maps"),
-                color_attachments: &colours,
-                depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                    view: &self.depth.sides[side],
-                    depth_ops: Some(wgpu::Operations { load: depth_load, store: wgpu::StoreOp::Store }),
-                    stencil_ops: None,
-                }),
-                ..Default::default()
-            });
-            pass.set_pipeline(&self.pipeline);
-            for ((surface, _), cameras) in surfaces.iter().zip(&cameras) {
-                pass.set_bind_group(0, &cameras[side], &[]);
-                pass.set_vertex_buffer(0, surface.positions.slice(..));
-                pass.set_vertex_buffer(1, surface.normals.slice(..));
-                if self.is_moving() {
-                    let velocities = surface.velocities.as_ref().expect("maps of moving bodies need velocities");
-                    pass.set_vertex_buffer(2, velocities.slice(..));
-                }
-                pass.set_index_buffer(surface.indices.slice(..), wgpu::IndexFormat::Uint32);
-                pass.draw_indexed(0..surface.index_count, 0, 0..1);
-            }
-        }
+    /// What they hold.
+    pub fn space(&self) -> &MapSpace {
+        &self.space
     }
 
     /// Whether the maps show velocities.
     pub fn is_moving(&self) -> bool {
-        self.velocities.is_some()
+        self.space.moving
     }
 
-    /// The depth map, `Depth32Float`, two layers; 0 at the camera's plane, 1 at the other camera's plane or where nothing is seen.
-    pub fn depth(&self) -> &wgpu::Texture {
-        &self.depth.texture
+    /// What did not fit the last time that the maps reported, without waiting; `None` where all did, or before that.
+    pub fn fault(&self) -> Option<MapsFault> {
+        match &self.kind {
+            Kind::Sides(_) => None,
+            Kind::Layers(maps) => maps.fault(),
+        }
     }
 
-    /// The normal map, `Rgba32Float`, two layers; xyz is the unit normal facing the camera.
+    /// The depth map. Of the papers' maps: `Depth32Float`, two layers; 0 at the camera's plane, 1 at the other camera's plane or where nothing is
+    /// seen. Of layered maps: `Rg32Uint`, a list of 2048 to a row: the bits of the depth [m], and the place of normal and velocity in
+    /// their lists.
+    pub fn depths(&self) -> &wgpu::Texture {
+        match &self.kind {
+            Kind::Sides(maps) => maps.depths(),
+            Kind::Layers(maps) => maps.depths(),
+        }
+    }
+
+    /// The normal map, `Rgba32Float`; xyz is the unit normal. The papers' maps have two layers, in which it faces the camera; layered maps a list
+    /// of 2048 to a row, in which it leads out of the body.
     pub fn normals(&self) -> &wgpu::Texture {
-        &self.normals.texture
+        match &self.kind {
+            Kind::Sides(maps) => maps.normals(),
+            Kind::Layers(maps) => maps.normals(),
+        }
     }
 
-    /// The velocity map, `Rgba32Float`, two layers; xyz is the velocity [m/s]. `None` for bodies at rest.
+    /// The velocity map, `Rgba32Float`, shaped as the normal map; xyz is the velocity [m/s]. `None` for bodies at rest.
     pub fn velocities(&self) -> Option<&wgpu::Texture> {
-        self.velocities.as_ref().map(|map| &map.texture)
+        match &self.kind {
+            Kind::Sides(maps) => maps.velocities(),
+            Kind::Layers(maps) => maps.velocities(),
+        }
     }
 
-    /// Bytes of the textures and of what the kernels know of their box.
+    /// The columns of layered maps, `Rg32Uint`, a list of 2048 to a row: the place of the first layer, and ends of bodies | sheets << 16. The
+    /// map along x comes first, and over each map its first extent runs fastest: y of that along x, z of that along y, x of that along z.
+    /// `None` for the papers' maps.
+    pub fn columns(&self) -> Option<&wgpu::Texture> {
+        match &self.kind {
+            Kind::Sides(_) => None,
+            Kind::Layers(maps) => Some(maps.columns()),
+        }
+    }
+
+    /// Bytes on the device.
     pub fn bytes(&self) -> u64 {
-        bytes_of(self.size.width, self.size.height, self.is_moving())
-    }
-
-    /// Bytes that maps over a box have. It needs no device.
-    pub fn bytes_over(map_box: &MapBox, moving: bool) -> u64 {
-        bytes_of(map_box.columns, map_box.rows, moving)
+        self.space.bytes()
     }
 
     /// The resource that the kernels know by this name, if it is one of the maps.
     pub(crate) fn resource(&self, name: &str) -> Option<wgpu::BindingResource<'_>> {
-        match name {
-            "map_box" => Some(self.map_box_uniform.as_entire_binding()),
-            "depth_map" => Some(wgpu::BindingResource::TextureView(&self.depth.layers)),
-            "normal_map" => Some(wgpu::BindingResource::TextureView(&self.normals.layers)),
-            "velocity_map" => self.velocities.as_ref().map(|map| wgpu::BindingResource::TextureView(&map.layers)),
-            _ => None,
+        match &self.kind {
+            Kind::Sides(maps) => maps.resource(name),
+            Kind::Layers(maps) => maps.resource(name),
         }
     }
-
-    /// Both cameras for a thickness, made once.
-    fn cameras(&self, device: &wgpu::Device, thickness: f32) -> [wgpu::BindGroup; 2] {
-        let mut kept = self.cameras.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(known) = kept.iter().find(|known| known.thickness == thickness) {
-            return known.sides.clone();
-        }
-        let sides = [0, 1].map(|side| self.camera(device, side, thickness));
-        if kept.len() == CAMERAS_KEPT {
-            kept.remove(0);
-        }
-        kept.push(Cameras { thickness, sides: sides.clone() });
-        sides
-    }
-
-    fn camera(&self, device: &wgpu::Device, side: u32, thickness: f32) -> wgpu::BindGroup {
-        let camera = uniform(&structs::Side { side, thickness });
-        let camera = create(device, "camera", &camera, wgpu::BufferUsages::UNIFORM);
-        device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("render_maps"),
-            layout: &self.layout,
-            entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: self.map_box_uniform.as_entire_binding() },
-                wgpu::BindGroupEntry { binding: 1, resource: camera.as_entire_binding() },
-            ],
-        })
-    }
-}
-
-fn bytes_of(columns: u32, rows: u32, moving: bool) -> u64 {
-    let texels = 2 * u64::from(columns) * u64::from(rows);
-    let colours = if moving { 2 } else { 1 };
-    texels * (4 + 16 * colours) + <structs::MapBox as encase::ShaderType>::min_size().get()
-}
-
-fn create_pipeline(device: &wgpu::Device, moving: bool) -> (wgpu::BindGroupLayout, wgpu::RenderPipeline) {
-    let label = Some("render_maps");
-    let uniform = |binding| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Uniform,
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    };
-    let layout =
-        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries: &[uniform(0), uniform(1)] });
-    let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label,
-        bind_group_layouts: &[Some(&layout)],
-        immediate_size: 0,
-    });
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label,
-        source: wgpu::ShaderSource::Wgsl(render_maps_source().into()),
-    });
-    let attribute = |location| {
-        [wgpu::VertexAttribute { format: wgpu::VertexFormat::Float32x3, offset: 0, shader_location: location }]
-    };
-    let (vertex_entry, fragment_entry, colour_count) = if moving {
-        ("draw_moving_surface", "write_normal_and_velocity", 2)
-    } else {
-        ("draw_surface", "write_normal", 1)
-    };
-    // Positions, normals, and one more with velocities: as many as there are colours, and one.
-    let attributes: Vec<_> = (0..=colour_count).map(attribute).collect();
-    let buffers: Vec<_> = attributes
-        .iter()
-        .map(|attributes| {
-            Some(wgpu::VertexBufferLayout { array_stride: 16, step_mode: wgpu::VertexStepMode::Vertex, attributes })
-        })
-        .collect();
-    let targets = vec![Some(COLOUR_FORMAT.into()); colour_count as usize];
-    let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label,
-        layout: Some(&pipeline_layout),
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some(vertex_entry),
-            compilation_options: Default::default(),
-            buffers: &buffers,
-        },
-        // Nothing is culled: a scanned body with holes shows its inside rather than nothing.
-        primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: DEPTH_FORMAT,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(wgpu::CompareFunction::Less),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some(fragment_entry),
-            compilation_options: Default::default(),
-            targets: &targets,
-        }),
-        multiview_mask: None,
-        cache: None,
-    });
-    (layout, pipeline)
 }

@@ -47,11 +47,11 @@ struct Morph {
 }
 
 impl MovingBody {
-    /// Uploads a body as it stands at time 0. It has no pose and no velocity before the first [`MovingBody::record_pose`].
+    /// Uploads a body as it stands at time 0, for texels of the edge length `texel` [m]. It has no pose and no velocity before the first [`MovingBody::record_pose`].
     ///
     /// # Errors
     /// [`GpuError::BufferTooLarge`] when it does not fit the device, [`GpuError::LimitTooLow`] when the kernels do not.
-    pub fn new(device: &wgpu::Device, body: &MovingMesh) -> Result<Self, GpuError> {
+    pub fn new(device: &wgpu::Device, body: &MovingMesh, texel: f32) -> Result<Self, GpuError> {
         check_limits(device)?;
         let available = device.limits().max_storage_buffer_binding_size;
         let vertex_count = body.mesh.positions.len() as u32;
@@ -70,6 +70,8 @@ impl MovingBody {
             velocities: Some(trail.velocities().clone()),
             indices: Surface::indices(device, &body.mesh),
             index_count: 3 * body.mesh.triangles.len() as u32,
+            parts: Surface::triangle_parts(device, &body.mesh, texel),
+            open: false,
             positions,
             normals,
         };

@@ -3,17 +3,33 @@
 use crate::step_params;
 use toile_kernels::Need;
 use toile_model::{Model, StepSettings};
-use toile_scene::Rule;
+use toile_scene::{MapKind, Rule};
 
 /// What the maps show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Maps {
     /// There are none.
     None,
-    /// Bodies at rest: depth and normals.
-    Still,
-    /// Bodies that move: velocities too.
-    Moving,
+    /// The papers' maps; `moving` with velocities.
+    Sides {
+        /// Whether anything in them moves.
+        moving: bool,
+    },
+    /// Layered maps; `moving` with velocities.
+    Layers {
+        /// Whether anything in them moves.
+        moving: bool,
+    },
+}
+
+impl Maps {
+    /// Maps of a kind.
+    pub fn of(kind: MapKind, moving: bool) -> Self {
+        match kind {
+            MapKind::Sides => Self::Sides { moving },
+            MapKind::Layers => Self::Layers { moving },
+        }
+    }
 }
 
 /// What decides which passes a cloth gets.
@@ -54,8 +70,10 @@ impl<'a> Needs<'a> {
             Need::Number(name) => step_params(model, settings, false).has(name),
             Need::Wind => settings.wind.is_some(),
             Need::Body => maps != Maps::None || shapes,
-            Need::StillMaps => maps == Maps::Still,
-            Need::MovingMaps => maps == Maps::Moving,
+            Need::StillSides => maps == Maps::Sides { moving: false },
+            Need::MovingSides => maps == Maps::Sides { moving: true },
+            Need::StillLayers => maps == Maps::Layers { moving: false },
+            Need::MovingLayers => maps == Maps::Layers { moving: true },
             Need::Shapes => shapes,
             Need::Holds => !model.holds.is_empty() && settings.hold_rate > 0.0,
             Need::Seams => !model.seam_pairs.is_empty(),

@@ -93,19 +93,29 @@ fn constants(kernel: Kernel, device_type: wgpu::DeviceType) -> &'static [(&'stat
 fn layout_entry(binding: &Binding) -> wgpu::BindGroupLayoutEntry {
     let buffer =
         |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: binding.has_entries(), min_binding_size: None };
-    let texture = |sample_type| wgpu::BindingType::Texture {
+    let texture = |sample_type, view_dimension| wgpu::BindingType::Texture {
         sample_type,
-        view_dimension: wgpu::TextureViewDimension::D2Array,
+        view_dimension,
         multisampled: false,
     };
+    let layered = wgpu::TextureViewDimension::D2Array;
+    let flat = wgpu::TextureViewDimension::D2;
+    let floats = wgpu::TextureSampleType::Float { filterable: false };
     wgpu::BindGroupLayoutEntry {
         binding: binding.number,
         visibility: wgpu::ShaderStages::COMPUTE,
         ty: match binding.resource {
             Resource::Uniform { .. } => buffer(wgpu::BufferBindingType::Uniform),
             Resource::Storage { written, .. } => buffer(wgpu::BufferBindingType::Storage { read_only: !written }),
-            Resource::DepthTexture => texture(wgpu::TextureSampleType::Depth),
-            Resource::FloatTexture => texture(wgpu::TextureSampleType::Float { filterable: false }),
+            Resource::DepthTexture => texture(wgpu::TextureSampleType::Depth, layered),
+            Resource::FloatTexture => texture(floats, layered),
+            Resource::FlatTexture { whole: false } => texture(floats, flat),
+            Resource::FlatTexture { whole: true } => texture(wgpu::TextureSampleType::Uint, flat),
+            Resource::WrittenTexture { whole } => wgpu::BindingType::StorageTexture {
+                access: wgpu::StorageTextureAccess::WriteOnly,
+                format: if whole { wgpu::TextureFormat::Rg32Uint } else { wgpu::TextureFormat::Rgba32Float },
+                view_dimension: flat,
+            },
         },
         count: None,
     }

@@ -22,16 +22,16 @@ pub fn read_vec4s(device: &wgpu::Device, queue: &wgpu::Queue, buffer: &wgpu::Buf
     Ok(bytemuck::pod_collect_to_vec(&read_buffer(device, queue, buffer)?))
 }
 
-/// Both layers of the depth map, front then back, each rows × columns from the top left.
+/// Both layers of the papers' depth map, front then back, each rows × columns from the top left.
 ///
 /// # Errors
 /// As [`read_buffer`].
 pub fn read_depth(device: &wgpu::Device, queue: &wgpu::Queue, maps: &BodyMaps) -> Result<[Vec<f32>; 2], GpuError> {
-    let texels: Vec<f32> = read_texture(device, queue, maps.depth(), 4, wgpu::TextureAspect::DepthOnly)?;
+    let texels: Vec<f32> = read_texture(device, queue, maps.depths(), 4, wgpu::TextureAspect::DepthOnly)?;
     Ok(split(texels))
 }
 
-/// Both layers of the normal map, front then back, each rows × columns from the top left.
+/// Both layers of the papers' normal map, front then back, each rows × columns from the top left.
 ///
 /// # Errors
 /// As [`read_buffer`].
@@ -40,7 +40,7 @@ pub fn read_normals(device: &wgpu::Device, queue: &wgpu::Queue, maps: &BodyMaps)
     Ok(split(texels.into_iter().map(Vec4::truncate).collect()))
 }
 
-/// Both layers of the velocity map, front then back, each rows × columns from the top left; `None` for bodies at rest.
+/// Both layers of the papers' velocity map, front then back, each rows × columns from the top left; `None` for bodies at rest.
 ///
 /// # Errors
 /// As [`read_buffer`].
@@ -52,6 +52,56 @@ pub fn read_velocities(
     let Some(texture) = maps.velocities() else { return Ok(None) };
     let texels: Vec<Vec4> = read_texture(device, queue, texture, 16, wgpu::TextureAspect::All)?;
     Ok(Some(split(texels.into_iter().map(Vec4::truncate).collect())))
+}
+
+/// The columns of layered maps, each with the place of its first layer and its numbers of ends and of sheets.
+///
+/// # Errors
+/// As [`read_buffer`].
+///
+/// # Panics
+/// When the maps have none.
+pub fn read_columns(device: &wgpu::Device, queue: &wgpu::Queue, maps: &BodyMaps) -> Result<Vec<[u32; 3]>, GpuError> {
+    let texture = maps.columns().expect("layered maps have columns");
+    let texels: Vec<[u32; 2]> = read_texture(device, queue, texture, 8, wgpu::TextureAspect::All)?;
+    let count: u64 = maps.space().map_box.texel_counts().iter().sum();
+    Ok(texels[..count as usize].iter().map(|[first, counts]| [*first, counts & 0xffff, counts >> 16]).collect())
+}
+
+/// A layer of layered maps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReadLayer {
+    /// Place along the axis [m].
+    pub depth: f32,
+    /// Unit normal out of the body.
+    pub normal: Vec3,
+    /// Velocity [m/s]; zero in maps of bodies at rest.
+    pub velocity: Vec3,
+}
+
+/// As many layers of layered maps as their columns have.
+///
+/// # Errors
+/// As [`read_buffer`].
+pub fn read_layers(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    maps: &BodyMaps,
+    columns: &[[u32; 3]],
+) -> Result<Vec<ReadLayer>, GpuError> {
+    let count = columns.iter().map(|[first, ends, sheets]| first + ends + sheets).max().unwrap_or(0);
+    let depths: Vec<[u32; 2]> = read_texture(device, queue, maps.depths(), 8, wgpu::TextureAspect::All)?;
+    let normals: Vec<Vec4> = read_texture(device, queue, maps.normals(), 16, wgpu::TextureAspect::All)?;
+    let velocities: Option<Vec<Vec4>> = match maps.velocities() {
+        Some(texture) => Some(read_texture(device, queue, texture, 16, wgpu::TextureAspect::All)?),
+        None => None,
+    };
+    let layer = |[depth, place]: &[u32; 2]| ReadLayer {
+        depth: f32::from_bits(*depth),
+        normal: normals[*place as usize].truncate(),
+        velocity: velocities.as_ref().map_or(Vec3::ZERO, |all| all[*place as usize].truncate()),
+    };
+    Ok(depths[..count as usize].iter().map(layer).collect())
 }
 
 fn split<T>(mut layers: Vec<T>) -> [Vec<T>; 2] {

@@ -129,11 +129,7 @@ impl Solver {
         program: impl Fn(Kernel) -> Program,
     ) -> Result<Self, GpuError> {
         check_limits(device)?;
-        let maps = match colliders.maps {
-            None => Maps::None,
-            Some(maps) if maps.is_moving() => Maps::Moving,
-            Some(_) => Maps::Still,
-        };
+        let maps = colliders.maps.map_or(Maps::None, |maps| Maps::of(maps.space().kind, maps.is_moving()));
         let plan = Plan::new(model, settings, maps, !colliders.shapes.is_empty());
         let programs: Vec<_> = plan.kernels().into_iter().map(|kernel| (kernel, program(kernel))).collect();
         let bindings = programs.iter().flat_map(|(_, program)| &program.interface().bindings);

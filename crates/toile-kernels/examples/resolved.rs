@@ -2,7 +2,7 @@
 
 use std::path::Path;
 use std::{env, fs, io};
-use toile_kernels::{TABLE, render_maps_source};
+use toile_kernels::{TABLE, render_sides_source};
 
 fn main() -> io::Result<()> {
     let folder = env::args().nth(1).ok_or_else(|| io::Error::other("usage: resolved FOLDER"))?;
@@ -15,5 +15,5 @@ fn main() -> io::Result<()> {
     for row in TABLE {
         fs::write(folder.join(format!("{}.wgsl", row.kernel.name())), row.kernel.source())?;
     }
-    fs::write(folder.join("render_maps.wgsl"), render_maps_source())
+    fs::write(folder.join("render_sides.wgsl"), render_sides_source())
 }

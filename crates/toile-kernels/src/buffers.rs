@@ -104,7 +104,13 @@ buffers! {
     "quads" Quad Constant;
     "particle_quad_offsets" Listed Constant;
     "particle_quads" Listed Constant;
-    "map_box" Listed Brought;
+    "side_box" Listed Brought;
+    "layer_box" Listed Brought;
+    "drawn" Listed Brought;
+    "triangle_parts" Listed Brought;
+    "crossing_lists" Listed Brought;
+    "crossings" Listed Brought;
+    "layer_counts" Listed Brought;
     "vertices" Listed Brought;
     "bind_positions" Listed Brought;
     "bind_normals" Listed Brought;
@@ -119,7 +125,9 @@ buffers! {
     "body_positions" Listed Brought;
     "body_normals" Listed Brought;
     "last_positions" Listed Brought;
+    "surface_indices" Listed Brought;
     "surface_positions" Listed Brought;
+    "surface_normals" Listed Brought;
     "surface_velocities" Listed Brought;
     "open_positions" Listed Brought;
     "open_velocities" Listed Brought;

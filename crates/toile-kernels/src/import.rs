@@ -15,10 +15,15 @@ macro_rules! shared {
 
 const SHARED: &[(&str, &str)] = &shared![
     "area",
+    "crossings",
     "elongation",
     "item",
-    "map_planes",
+    "layer_box",
+    "layer_raster",
+    "layer_planes",
+    "side_planes",
     "over_long",
+    "packed",
     "pair",
     "particles",
     "point",

@@ -11,7 +11,7 @@ mod table;
 
 pub use buffers::{BUFFERS, BufferRow, Per, Role, buffer_row};
 pub use reflect::{Binding, Interface, Resource, StructField, StructLayout};
-pub use table::{Domain, Kernel, Need, Row, Stage, TABLE, render_maps_source};
+pub use table::{Domain, Kernel, Need, Row, Stage, TABLE, render_sides_source};
 
 /// Invocations of one workgroup of every compute kernel.
 pub const WORKGROUP_SIZE: u32 = 64;

@@ -1,7 +1,7 @@
 //! What a kernel's WGSL says of itself: bindings by global name, workgroup size, layouts of its structs.
 
 use crate::{Kernel, buffer_row};
-use naga::{AddressSpace, Expression, ImageClass, Literal, StorageAccess, TypeInner};
+use naga::{AddressSpace, Expression, ImageClass, Literal, ScalarKind, StorageAccess, StorageFormat, TypeInner};
 
 /// What a kernel's WGSL says of itself.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,7 +41,7 @@ impl Resource {
         match self {
             Self::Uniform { size } => size,
             Self::Storage { stride, .. } => stride,
-            Self::DepthTexture | Self::FloatTexture => 0,
+            _ => 0,
         }
     }
 }
@@ -65,6 +65,16 @@ pub enum Resource {
     DepthTexture,
     /// A layered texture of floats that are not filtered.
     FloatTexture,
+    /// A texture of one layer: floats that are not filtered, or whole numbers.
+    FlatTexture {
+        /// Whether it has whole numbers.
+        whole: bool,
+    },
+    /// A texture of one layer that the kernel writes.
+    WrittenTexture {
+        /// Whether it has two whole numbers a texel; otherwise it has four floats.
+        whole: bool,
+    },
 }
 
 /// Layout of a struct, as naga computes it.
@@ -156,6 +166,14 @@ fn resource(module: &naga::Module, global: &naga::GlobalVariable) -> Resource {
         },
         _ => match inner {
             TypeInner::Image { class: ImageClass::Depth { .. }, .. } => Resource::DepthTexture,
+            TypeInner::Image { class: ImageClass::Storage { format, .. }, .. } => match format {
+                StorageFormat::Rg32Uint => Resource::WrittenTexture { whole: true },
+                StorageFormat::Rgba32Float => Resource::WrittenTexture { whole: false },
+                other => panic!("kernels write no textures of the format {other:?}"),
+            },
+            TypeInner::Image { arrayed: false, class: ImageClass::Sampled { kind, .. }, .. } => {
+                Resource::FlatTexture { whole: *kind == ScalarKind::Uint }
+            }
             _ => Resource::FloatTexture,
         },
     }

@@ -237,7 +237,7 @@ shared_structs! {
     }
 
     /// Where the two map cameras stand.
-    MapBox {
+    SideBox {
         /// Left edge [m].
         origin_x: f32,
         /// Top edge [m].
@@ -260,6 +260,58 @@ shared_structs! {
         side: u32,
         /// Offset along the normals [m].
         thickness: f32,
+    }
+
+    /// Where the layered maps stand.
+    LayerBox {
+        /// Smallest corner from the origin of the world; whole numbers [texel].
+        low: vec3,
+        /// Edge length of a texel [m].
+        texel: f32,
+        /// Texels along x.
+        size_x: u32,
+        /// Texels along y.
+        size_y: u32,
+        /// Texels along z.
+        size_z: u32,
+        /// 1 / texel [1/m].
+        texels_per_metre: f32,
+        /// Columns of all three maps.
+        column_count: u32,
+    }
+
+    /// A surface that is drawn into the layered maps.
+    Drawn {
+        /// Parts of its triangles.
+        part_count: u32,
+        /// How many triangles were drawn before.
+        first_triangle: u32,
+        /// 1: it is open by what it is, as a garment.
+        is_open: u32,
+    }
+
+    /// Where a column meets a triangle.
+    Crossing {
+        /// Along the axis [m].
+        depth: f32,
+        /// Which triangle of all that are drawn.
+        triangle: u32,
+        /// Whether it begins a body, and whether it belongs to an open surface: bits.
+        kind: u32,
+        /// The next of the column: one more than its place, 0 at the end.
+        next: u32,
+    }
+
+    /// What the layered maps hold, and what did not fit.
+    LayerCounts {
+        /// Crossings.
+        crossing_count: atomic_u32,
+        /// Layers.
+        layer_count: atomic_u32,
+        /// Triangles with a vertex too far away or without a place.
+        dropped_triangles: atomic_u32,
+        /// Columns with more crossings than can be told apart.
+        crowded_columns: atomic_u32,
     }
 
     /// An analytic shape at the start of a step, going straight on to its end.

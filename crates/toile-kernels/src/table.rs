@@ -7,6 +7,8 @@ use crate::import::resolve;
 pub enum Stage {
     /// Whenever the maps are drawn anew: a body takes its next pose. Planned for a body, not for a cloth.
     Pose,
+    /// Whenever the maps are drawn anew, once the bodies have their poses. Planned for maps, not for a cloth.
+    Maps,
     /// Once per step.
     Step,
     /// Once per sweep: consecutive rows of this stage are repeated together as often as the settings say, so that limits, bodies and
@@ -50,6 +52,10 @@ pub enum Domain {
     SeamColour,
     /// A vertex of a body.
     Vertex,
+    /// A part of a triangle, once for each axis.
+    TrianglePart,
+    /// A column of the layered maps.
+    Column,
     /// One workgroup in all.
     Workgroup,
 }
@@ -65,10 +71,14 @@ pub enum Need {
     Wind,
     /// Any body.
     Body,
-    /// Mesh bodies at rest.
-    StillMaps,
-    /// Mesh bodies that move.
-    MovingMaps,
+    /// Mesh bodies at rest, in the papers' maps.
+    StillSides,
+    /// Mesh bodies that move, in the papers' maps.
+    MovingSides,
+    /// Mesh bodies at rest, in layered maps.
+    StillLayers,
+    /// Mesh bodies that move, in layered maps.
+    MovingLayers,
     /// A body whose vertices follow joints.
     Joints,
     /// A body with morph targets.
@@ -161,6 +171,12 @@ kernels! {
     SkinBody "maps" "skin_body" Pose Vertex Joints;
     /// Velocities of a moving surface. W §4.3.
     VertexVelocities "maps" "vertex_velocities" Pose Vertex Nothing;
+    /// Where columns of the layered maps meet a surface at rest. D §8, W §7.
+    DrawLayers "maps" "draw_layers" Maps TrianglePart StillLayers;
+    /// The same of a moving surface. D §8, W §4.3, §7.
+    DrawMovingLayers "maps" "draw_moving_layers" Maps TrianglePart MovingLayers;
+    /// What each column of the layered maps meets, from low to high. D §8, W §7.
+    SortLayers "maps" "sort_layers" Maps Column Nothing;
     /// Springs, gravity and damping. D eq. 2.
     SpringForces "step" "spring_forces" Step Particle Nothing;
     /// Drag and lift of each quad in the air. W §2.2.
@@ -191,10 +207,14 @@ kernels! {
     LimitPredictive "step" "limit_predictive" Sweep LimitColour RulePredictive;
     /// Points of the quads that are tested. D §6.
     QuadMidpoints "step" "quad_midpoints" Sweep Quad Body;
-    /// What points see in the maps of bodies at rest. W §4.4.
-    SampleMaps "step" "sample_maps" Sweep Point StillMaps;
-    /// What points see in the maps of moving bodies. W §4.3, §4.4.
-    SampleMovingMaps "step" "sample_moving_maps" Sweep Point MovingMaps;
+    /// What points see of bodies at rest in the papers' maps. W §4.4.
+    SampleSides "step" "sample_sides" Sweep Point StillSides;
+    /// What points see of moving bodies in the papers' maps. W §4.3, §4.4.
+    SampleMovingSides "step" "sample_moving_sides" Sweep Point MovingSides;
+    /// What points see of bodies at rest in the layered maps. D §8, W §7.
+    SampleLayers "step" "sample_layers" Sweep Point StillLayers;
+    /// What points see of moving bodies in the layered maps. D §8, W §4.3, §7.
+    SampleMovingLayers "step" "sample_moving_layers" Sweep Point MovingLayers;
     /// What points see of the shapes.
     SampleShapes "step" "sample_shapes" Sweep Point Shapes;
     /// Each particle answers its own contact and those of its quads. D §6, W eq. 15.
@@ -244,8 +264,8 @@ impl Kernel {
     }
 }
 
-/// The WGSL of the render pass that draws the maps: vertex entry `draw_surface` and fragment entry `write_normal` for bodies at
+/// The WGSL of the render pass that draws the papers' maps: vertex entry `draw_surface` and fragment entry `write_normal` for bodies at
 /// rest, `draw_moving_surface` and `write_normal_and_velocity` for those that move.
-pub fn render_maps_source() -> String {
-    resolve(include_str!("../../../wgsl/maps/render_maps.wgsl"))
+pub fn render_sides_source() -> String {
+    resolve(include_str!("../../../wgsl/maps/render_sides.wgsl"))
 }

@@ -4,11 +4,11 @@
 //! What is measured stays with those who measure.
 
 mod distance;
+mod drawn_maps;
 pub mod fixtures;
 mod gpu;
 pub mod kernels;
 mod lab;
-mod layers;
 mod network;
 mod random;
 mod run;
@@ -19,7 +19,7 @@ pub mod shapes;
 pub use distance::Distance;
 pub use gpu::{Gpu, INSTALL_HINT};
 pub use lab::{Lab, LabError, Progress, Scale};
-pub use layers::{Layers, read_maps};
+pub use drawn_maps::{DrawnMaps, read_maps};
 pub use network::Network;
 pub use random::Random;
 pub use run::{Run, StepCost};

@@ -4,5 +4,6 @@ pub(crate) mod dressing;
 pub(crate) mod map_box;
 pub(crate) mod piece;
 pub(crate) mod shape_step;
+pub(crate) mod side_box;
 pub(crate) mod status;
 pub(crate) mod step;

@@ -11,7 +11,7 @@ use toile_scene::{Polish, Rule, Shape};
 /// What the cloth collides with. The default is nothing: then no contact kernel runs.
 #[derive(Clone, Debug, Default)]
 pub struct Colliders {
-    /// Maps of a body mesh, with the thickness of the cloth in them.
+    /// Maps of a body mesh; the papers' have the thickness of the cloth in them.
     pub maps: Option<BodyMaps>,
     /// Analytic shapes, without thickness.
     pub shapes: Vec<Shape>,
@@ -202,10 +202,7 @@ impl Reference {
 
     fn probes_of(&self, positions: &[Vec3], velocities: &[Vec3], lag: Lag) -> Vec<Probe> {
         let mut probes = match &self.colliders.maps {
-            Some(maps) if maps.velocities.is_some() => {
-                step::sample_moving_maps(positions, velocities, maps, lag, &self.settings)
-            }
-            Some(maps) => step::sample_maps(positions, velocities, maps, &self.settings),
+            Some(maps) => step::sample_body_maps(positions, velocities, maps, lag, &self.settings),
             None => vec![Probe::default(); positions.len()],
         };
         let shapes = self.colliders.shapes.iter().map(|shape| ShapeStep::of(shape, self.step, &self.settings));

@@ -14,7 +14,8 @@ mod limit_position;
 mod limit_predictive;
 mod limit_strands;
 mod limit_zero;
-mod map_planes;
+mod layer_planes;
+mod side_planes;
 mod measure_excess;
 mod move_particles;
 mod pair;
@@ -22,8 +23,10 @@ mod pressure_forces;
 mod quad_midpoints;
 mod quad_wind;
 mod reaction;
-mod sample_maps;
-mod sample_moving_maps;
+mod sample_layers;
+mod sample_sides;
+mod sample_moving_layers;
+mod sample_moving_sides;
 mod sample_shapes;
 mod spring_forces;
 mod warm_start;
@@ -49,16 +52,37 @@ pub use pressure_forces::pressure_forces;
 pub use quad_midpoints::quad_midpoints;
 pub use quad_wind::quad_wind;
 pub use reaction::reaction;
-pub use sample_maps::sample_maps;
-pub use sample_moving_maps::sample_moving_maps;
+pub use sample_layers::sample_layers;
+pub use sample_sides::sample_sides;
+pub use sample_moving_layers::sample_moving_layers;
+pub use sample_moving_sides::sample_moving_sides;
 pub use sample_shapes::sample_shapes;
 pub use spring_forces::spring_forces;
 pub use warm_start::warm_start;
 pub use wind_forces::wind_forces;
 
-use crate::Particles;
+use crate::maps::BodyMaps;
+use crate::{Lag, Particles, Probe};
 use glam::Vec3;
 use toile_model::{Model, StepSettings};
+
+/// The surface that each point meets in the coming move, or none, whatever the maps. All arrays have the shape [point_count].
+pub fn sample_body_maps(
+    positions: &[Vec3],
+    velocities: &[Vec3],
+    maps: &BodyMaps,
+    lag: Lag,
+    settings: &StepSettings,
+) -> Vec<Probe> {
+    match maps {
+        BodyMaps::Sides(sides) if maps.is_moving() => sample_moving_sides(positions, velocities, sides, lag, settings),
+        BodyMaps::Sides(sides) => sample_sides(positions, velocities, sides, settings),
+        BodyMaps::Layers(layers) if maps.is_moving() => {
+            sample_moving_layers(positions, velocities, layers, lag, settings)
+        }
+        BodyMaps::Layers(layers) => sample_layers(positions, velocities, layers, settings),
+    }
+}
 
 /// Force on each particle [N] before the bodies answer, shape [particle_count]: that of the springs, and on it what the scene has.
 pub fn forces(particles: &Particles, model: &Model, settings: &StepSettings) -> Vec<Vec3> {

@@ -26,7 +26,7 @@ pub use mesh::Mesh;
 pub use moving::{MeshSequence, Motion, MovingMesh};
 pub use rig::{Joint, LocalTransform, OwnAncestor, Rig, RigNode};
 pub use rigid::{RigidKey, RigidMotion};
-pub use settings::{AIR_DENSITY, AirNumber, Friction, Polish, Rule, Settings, VelocityModification, Wind};
+pub use settings::{AIR_DENSITY, AirNumber, Friction, MapKind, Polish, Rule, Settings, VelocityModification, Wind};
 pub use shape::{Form, Shape, ShapeMotion};
 pub use sheet::{Pin, Sheet};
 pub use skin::{Displacement, Influence, Morphs, Pose, Skin, normal_before, turned_normal};

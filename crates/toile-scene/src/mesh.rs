@@ -72,6 +72,15 @@ impl Mesh {
         Some(self.positions.iter().fold([first, first], |[low, high], p| [low.min(*p), high.max(*p)]))
     }
 
+    /// Area of all triangles [m²].
+    pub fn area(&self) -> f64 {
+        let area = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|i| self.positions[i as usize].as_dvec3());
+            0.5 * (b - a).cross(c - a).length()
+        };
+        self.triangles.iter().map(area).sum()
+    }
+
     /// Enclosed volume [m³] by the divergence theorem; negative when the triangles face inward.
     /// Meaningful up to the volume of the missing caps, seen from the centre of the bounds, when the mesh has holes.
     pub fn signed_volume(&self) -> f64 {

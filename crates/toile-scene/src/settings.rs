@@ -21,6 +21,8 @@ pub struct Settings {
     pub wind: Option<Wind>,
     /// Distance of neighbouring particles along warp and weft [m].
     pub spacing: f64,
+    /// How the maps see bodies.
+    pub maps: MapKind,
     /// Edge length of a map texel [m]. D eq. 11.
     pub texel: f64,
     /// Frames per second of simulated time [1/s].
@@ -55,6 +57,7 @@ impl Settings {
             gravity: DVec3::new(0.0, -9.81, 0.0),
             wind: None,
             spacing: 0.01,
+            maps: MapKind::Layers,
             texel: 0.005,
             frame_rate: 60.0,
             safety: 0.8,
@@ -201,6 +204,15 @@ impl Rule {
     pub fn sweeps(self) -> u32 {
         if self == Self::Hierarchical { 3 } else { 1 }
     }
+}
+
+/// How the maps see bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MapKind {
+    /// All that the columns of three axes meet: limbs, sides and bodies that turn. D §8, W §7.
+    Layers,
+    /// What two cameras along z see, from the front and the back: the papers' maps. W §4.
+    Sides,
 }
 
 /// How the cloth slides on a body.

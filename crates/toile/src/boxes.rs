@@ -2,8 +2,9 @@
 
 use crate::Error;
 use glam::Vec3;
+use toile_gpu::MapSpace;
 use toile_model::MapBox;
-use toile_scene::MovingMesh;
+use toile_scene::{MapKind, MovingMesh};
 
 /// Bounds of a body are looked up in a table of so many per second [1/s].
 const BOUNDS_RATE: f64 = 60.0;
@@ -20,7 +21,30 @@ pub(crate) struct Boxes {
     round: Option<f64>,
     margin: f32,
     texel: f32,
-    size: [u32; 2],
+    size: [u32; 3],
+    /// Largest area of all bodies together [m²].
+    area: f64,
+}
+
+/// What the maps of an outfit must hold, and where they stand.
+#[derive(Clone, Debug)]
+pub(crate) struct MapPlan {
+    /// How they see bodies.
+    pub(crate) kind: MapKind,
+    /// Where they stand while anything in them moves.
+    pub(crate) boxes: Option<Boxes>,
+    /// Where they stand when nothing does.
+    pub(crate) still_box: Option<MapBox>,
+    /// Largest area of all that they show together [m²].
+    pub(crate) area: f64,
+}
+
+impl MapPlan {
+    /// Maps that hold it all; `None` where there is nothing to see.
+    pub(crate) fn space(&self) -> Option<MapSpace> {
+        let map_box = self.boxes.as_ref().map(|boxes| boxes.at(0.0)).or(self.still_box)?;
+        Some(MapSpace { kind: self.kind, map_box, moving: self.boxes.is_some(), area: self.area })
+    }
 }
 
 impl Boxes {
@@ -38,9 +62,11 @@ impl Boxes {
     ) -> Result<Self, Error> {
         let duration = moving.iter().map(MovingMesh::duration).fold(0.0, f64::max);
         let count = (duration * BOUNDS_RATE).ceil() as u32 + 1;
+        let mut area = 0.0_f64;
         let bounds_at = |index| {
             let time = f64::from(index) / BOUNDS_RATE;
             let mut boxes = still.to_vec();
+            let mut area_now = 0.0;
             for body in moving {
                 let posed = body.at(time);
                 // Bounds alone do not tell: they pass over what is no number.
@@ -48,7 +74,9 @@ impl Boxes {
                     return Err(Error::Body { time });
                 }
                 boxes.push(posed.bounds().unwrap_or_default());
+                area_now += posed.area();
             }
+            area = area.max(area_now);
             Ok(boxes.into_iter().reduce(around_both).unwrap_or_default())
         };
         let bounds = (0..count).map(bounds_at).collect::<Result<_, _>>()?;
@@ -57,7 +85,7 @@ impl Boxes {
             [only] if only.is_closed() => Some(only.duration()),
             _ => None,
         };
-        let mut boxes = Self { bounds, round, margin, texel, size: [0; 2] };
+        let mut boxes = Self { bounds, round, margin, texel, size: [0; 3], area };
         let sizes = (0..count as usize).map(|index| {
             let [low, high] = boxes.between(index);
             high - low
@@ -65,6 +93,11 @@ impl Boxes {
         let largest = sizes.fold(Vec3::ZERO, Vec3::max);
         boxes.size = MapBox::size_for(largest, texel);
         Ok(boxes)
+    }
+
+    /// Largest area of the bodies that move [m²].
+    pub(crate) fn area(&self) -> f64 {
+        self.area
     }
 
     /// The box at a time [s].
@@ -112,11 +145,10 @@ mod tests {
         let boxes = Boxes::new(&bodies, &[shelf], 0.01, 0.002, true).expect("all is finite");
         for time in [0.0, 0.3, 1.0, 7.0] {
             let map_box = boxes.at(time);
-            let right = map_box.origin_x + map_box.texel * map_box.columns as f32;
-            let bottom = map_box.origin_y - map_box.texel * map_box.rows as f32;
+            let [low, high] = [map_box.corner(), map_box.far_corner()];
             let x = 2.0 * time.min(1.0) as f32;
-            assert!(map_box.origin_x < -1.25 && right > x + 0.25, "{time} s: {map_box:?}");
-            assert!(map_box.origin_y > 1.2 && bottom < -0.25 && map_box.z_front > 0.25, "{time} s: {map_box:?}");
+            assert!(low.x < -1.25 && high.x > x + 0.25, "{time} s: {map_box:?}");
+            assert!(high.y > 1.2 && low.y < -0.25 && high.z > 0.25, "{time} s: {map_box:?}");
         }
     }
 }

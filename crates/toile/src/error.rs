@@ -42,6 +42,9 @@ pub enum Error {
         /// Time from one map to the next [s].
         interval: f64,
     },
+    /// What the cloths collide with does not fit into its maps.
+    #[error(transparent)]
+    Maps(#[from] toile_gpu::MapsFault),
     /// A saved state is not one of this simulation.
     #[error("the saved state cannot be restored: {0}")]
     State(String),

@@ -1,5 +1,7 @@
 //! What a renderer draws.
 
+use toile_gpu::Surface;
+
 /// What a renderer draws: buffers on the device that hold the state at the end of the last recorded frame.
 #[derive(Clone, Debug)]
 pub struct Frame {
@@ -15,15 +17,17 @@ pub struct Frame {
     pub index_count: u32,
 }
 
-impl From<&Frame> for toile_gpu::Surface {
-    /// The cloth as something that a later cloth collides with.
-    fn from(frame: &Frame) -> Self {
-        Self {
-            positions: frame.positions.clone(),
-            normals: frame.normals.clone(),
+impl Frame {
+    /// The cloth as something that a later cloth collides with, at rest.
+    pub fn surface(&self, device: &wgpu::Device) -> Surface {
+        Surface {
+            positions: self.positions.clone(),
+            normals: self.normals.clone(),
             velocities: None,
-            indices: frame.indices.clone(),
-            index_count: frame.index_count,
+            indices: self.indices.clone(),
+            index_count: self.index_count,
+            parts: Surface::whole_triangles(device, self.index_count / 3),
+            open: true,
         }
     }
 }

@@ -1,10 +1,10 @@
 //! Cloths that go together on bodies, each over the ones before it.
 
-use crate::boxes::Boxes;
+use crate::boxes::{Boxes, MapPlan};
 use crate::{Cloth, Colliders, Error};
 use std::ops::Range;
 use std::sync::Arc;
-use toile_gpu::{BodyMaps, MovingBody, Surface, Trail};
+use toile_gpu::{BodyMaps, MapsFault, MovingBody, Surface, Trail};
 use toile_model::{MapBox, Model, StepSettings};
 use toile_scene::{Mesh, MovingMesh, Shape};
 
@@ -84,8 +84,8 @@ pub(crate) fn maps_per_frame(steps: u32, frame_rate: f64) -> u32 {
 }
 
 impl Outfit {
-    /// Cloths at the start of their models, from the inside out, and the bodies before their first pose. Maps of moving surfaces stand at
-    /// `boxes`, those of surfaces at rest at `shown`. Pipelines are those of `alike`, as far as it has them.
+    /// Cloths at the start of their models, from the inside out, and the bodies before their first pose. Pipelines are those of
+    /// `alike`, as far as it has them.
     ///
     /// # Errors
     /// [`Error::Gpu`] when bodies, maps or a cloth do not fit the device.
@@ -93,31 +93,32 @@ impl Outfit {
         device: &wgpu::Device,
         bodies: &Bodies,
         cloths: &[(&Model, StepSettings)],
-        boxes: Option<Boxes>,
-        still_box: Option<MapBox>,
+        map_plan: MapPlan,
         frame_rate: f64,
         alike: Option<&Cloth>,
     ) -> Result<Self, Error> {
         let thickness = cloths.iter().map(|(_, settings)| settings.thickness).fold(0.0, f32::max);
         let maps_per_frame = cloths.first().map_or(1, |(_, step)| maps_per_frame(step.steps_per_frame, frame_rate));
-        let moving = bodies.moving.iter().map(|body| MovingBody::new(device, body)).collect::<Result<Vec<_>, _>>()?;
-        let at_rest = |mesh| match boxes {
-            Some(_) => Surface::at_rest(device, mesh),
-            None => Surface::new(device, mesh),
+        let space = map_plan.space();
+        let texel = space.as_ref().map_or(1.0, |space| space.map_box.texel);
+        let moving = bodies.moving.iter().map(|body| MovingBody::new(device, body, texel));
+        let moving = moving.collect::<Result<Vec<_>, _>>()?;
+        let at_rest = |mesh| match map_plan.boxes {
+            Some(_) => Surface::at_rest(device, mesh, texel),
+            None => Surface::new(device, mesh, texel),
         };
         let still: Vec<Surface> = bodies.still.iter().map(at_rest).collect();
-        let shown = boxes.as_ref().map(|boxes| boxes.at(0.0)).or(still_box);
         let has_meshes = !(moving.is_empty() && still.is_empty());
         let outermost = cloths.len().saturating_sub(1);
         let mut layers: Vec<Layer> = Vec::new();
         for (model, step) in cloths {
             // Where there is no body to see, the innermost cloth sees nothing.
-            let map_box = shown.filter(|_| has_meshes || !layers.is_empty());
+            let space = space.as_ref().filter(|_| has_meshes || !layers.is_empty());
             let drawn = layers.iter().find_map(|layer| layer.maps.as_ref());
-            let maps = match (map_box, drawn) {
+            let maps = match (space, drawn) {
                 (None, _) => None,
-                (Some(_), Some(drawn)) => Some(drawn.new_alike(device)),
-                (Some(map_box), None) => Some(BodyMaps::new(device, map_box, boxes.is_some())?),
+                (Some(_), Some(drawn)) => Some(drawn.new_alike(device)?),
+                (Some(space), None) => Some(BodyMaps::new(device, space)?),
             };
             let maps = maps.map(Arc::new);
             let colliders = Colliders { maps: maps.clone(), shapes: bodies.shapes.clone() };
@@ -128,7 +129,7 @@ impl Outfit {
             let drawn = cloth.frame();
             let seen = (layers.len() < outermost).then(|| {
                 let trail = Trail::new(device, &drawn.positions, drawn.particle_count);
-                let surface = Surface { velocities: Some(trail.velocities().clone()), ..Surface::from(drawn) };
+                let surface = Surface { velocities: Some(trail.velocities().clone()), ..drawn.surface(device) };
                 Seen { surface, trail }
             });
             layers.push(Layer { cloth, maps, seen });
@@ -136,8 +137,8 @@ impl Outfit {
         Ok(Self {
             moving,
             still,
-            boxes,
-            shown,
+            boxes: map_plan.boxes,
+            shown: space.map(|space| space.map_box),
             thickness,
             frame_seconds: 1.0 / frame_rate,
             maps_per_frame,
@@ -163,15 +164,16 @@ impl Outfit {
         let (Some(boxes), Some(first)) = (&self.boxes, self.layers.first().and_then(|layer| layer.maps.clone())) else {
             return Ok(());
         };
+        let kept: Vec<_> = (0..count).map(|_| first.new_alike(device)).collect::<Result<_, _>>()?;
+        let mut kept = kept.into_iter();
         let mut maps = Vec::with_capacity(count as usize);
         recorder(Part::Maps, &mut |encoder| {
             let moving = &mut self.moving[0];
             moving.record_pose(device, encoder, 0.0);
-            for index in 1..=count {
+            for (index, drawn) in (1..=count).zip(&mut kept) {
                 let time = f64::from(index) * interval;
                 moving.record_pose(device, encoder, time);
                 let map_box = boxes.at(time);
-                let drawn = first.new_alike(device);
                 drawn.record(device, encoder, map_box, &[(moving.surface(), self.thickness)]);
                 maps.push((drawn, map_box));
             }
@@ -344,6 +346,11 @@ impl Outfit {
     /// The bodies on the device, as the maps draw them: those at rest, then those that move.
     pub(crate) fn bodies(&self) -> impl Iterator<Item = &Surface> {
         self.still.iter().chain(self.moving.iter().map(MovingBody::surface))
+    }
+
+    /// What did not fit into the maps, as far as they have reported.
+    pub(crate) fn maps_fault(&self) -> Option<MapsFault> {
+        self.layers.iter().filter_map(|layer| layer.maps.as_ref()).find_map(|maps| maps.fault())
     }
 
     /// Where the maps stand.

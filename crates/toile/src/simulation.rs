@@ -1,6 +1,6 @@
 //! A scene that runs: its garments are sewn, eased and draped, then everything goes on together.
 
-use crate::boxes::{Boxes, around_both};
+use crate::boxes::{Boxes, MapPlan, around_both};
 use crate::clock::{Advance, Clock};
 use crate::dressed::{Bounds, Done, Dressed};
 use crate::fitting::Fitting;
@@ -9,10 +9,12 @@ use crate::stage::Stage;
 use crate::{Cloth, Colliders, Error, pose};
 use glam::Vec3;
 use std::sync::Arc;
-use toile_gpu::{BodyMaps, Surface};
+use toile_gpu::{BodyMaps, MapSpace, Surface};
 use toile_model::{Dressing, DressingStage, MapBox, Model, Piece, StepSettings};
 use toile_scene::{Body, Mesh, MovingMesh, Scene, Settings};
 
+/// How much larger than its pattern cloth may be [1].
+const STRETCHED_AREA: f64 = 1.5;
 /// Time that garments have to hang quietly once the body has gone over to the start of its motion [s].
 const WAITING_SECONDS: f64 = 0.5;
 
@@ -212,6 +214,9 @@ impl Simulation {
                 for cloth in outfit.cloths() {
                     cloth.status()?;
                 }
+                if let Some(fault) = outfit.maps_fault() {
+                    return Err(fault.into());
+                }
                 Ok(*stage)
             }
             Phase::Dressing(dressed) => {
@@ -291,9 +296,11 @@ impl Simulation {
     ) -> Result<Option<Arc<BodyMaps>>, Error> {
         let meshes = self.dressing_meshes();
         let Some(map_box) = self.still_box(&meshes, garment_bounds) else { return Ok(None) };
-        let maps = BodyMaps::new(&self.device, map_box, false)?;
-        let mut surfaces: Vec<Surface> = meshes.iter().map(|mesh| Surface::new(&self.device, mesh)).collect();
-        surfaces.extend(garments.iter().map(|done| Surface::from(done.cloth.frame())));
+        let area = meshes.iter().map(|mesh| mesh.area()).sum::<f64>() + self.cloth_area();
+        let maps = BodyMaps::new(&self.device, &MapSpace { kind: self.settings.maps, map_box, moving: false, area })?;
+        let surface = |mesh: &&Mesh| Surface::new(&self.device, mesh, map_box.texel);
+        let mut surfaces: Vec<Surface> = meshes.iter().map(surface).collect();
+        surfaces.extend(garments.iter().map(|done| done.cloth.frame().surface(&self.device)));
         let thickness = self.thickness();
         let drawn: Vec<_> = surfaces.iter().map(|surface| (surface, thickness)).collect();
         recorder(Part::Maps, &mut |encoder| maps.record(&self.device, encoder, map_box, &drawn))?;
@@ -306,6 +313,12 @@ impl Simulation {
         let bounds = meshes.iter().filter_map(|mesh| mesh.bounds()).chain(garment_bounds.iter().copied());
         let thick = bounds.map(|[low, high]| [low - thickness, high + thickness]);
         Some(MapBox::around(thick.reduce(around_both)?, self.settings.texel as f32))
+    }
+
+    /// Largest area of all cloths together [m²].
+    fn cloth_area(&self) -> f64 {
+        let mass: f32 = self.pieces.iter().flat_map(|piece| &piece.model.masses).sum();
+        STRETCHED_AREA * f64::from(mass) / self.settings.fabric.areal_density
     }
 
     fn thickness(&self) -> f32 {
@@ -390,7 +403,9 @@ impl Simulation {
             Phase::Dressing(dressed) => dressed.done.last().map(|done| &done.cloth),
             Phase::Together { outfit, .. } => outfit.cloths().next(),
         };
-        Outfit::new(&self.device, &bodies, &cloths, boxes, still_box, rate, alike)
+        let area = boxes.as_ref().map_or(0.0, Boxes::area) + bodies.still.iter().map(Mesh::area).sum::<f64>() + self.cloth_area();
+        let maps = MapPlan { kind: self.settings.maps, boxes, still_box, area };
+        Outfit::new(&self.device, &bodies, &cloths, maps, rate, alike)
     }
 
     /// Has the maps of a whole round of the body drawn once, when the run begins, and copied from then on; how many bytes they take. D §7, W §6.
@@ -414,7 +429,9 @@ impl Simulation {
             return Err(Error::Round { duration: body.duration(), interval });
         };
         self.keeps_maps = true;
-        Ok(u64::from(count) * BodyMaps::bytes_over(&boxes.at(0.0), true))
+        let area = boxes.area() + self.cloth_area();
+        let space = MapSpace { kind: self.settings.maps, map_box: boxes.at(0.0), moving: true, area };
+        Ok(u64::from(count) * space.bytes())
     }
 
     /// The cloths that are on the device, from the inside out: while garments are dressed those that are, and the one that is being dressed.

@@ -1,7 +1,7 @@
 //! `toile plan`: what a scene gets, without an adapter.
 
 use crate::args::PlanOf;
-use crate::bodies::shapes;
+use crate::bodies::{meshes, shapes};
 use crate::commands::outfit;
 use crate::pattern::{self, Pattern};
 use crate::stdout::print;
@@ -11,9 +11,9 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
 use toile::files::{read_scene, write_atomically};
-use toile::gpu::{BodyMaps, Kernel, KernelRuns, Maps, Pass, Plan, kernel_runs};
+use toile::gpu::{Kernel, KernelRuns, MapSpace, Maps, Pass, Plan, kernel_runs};
 use toile::model::{MapBox, Merge, Model, StepSettings};
-use toile::scene::{Body, Cloth, Scene, Shape};
+use toile::scene::{Body, Cloth, Mesh, Scene, Shape};
 
 /// Prints passes, dispatches and bytes of every cloth of a scene; draws the limits of all of them when a picture is wanted.
 pub fn run(arguments: &PlanOf) -> Result<()> {
@@ -97,13 +97,16 @@ fn plans(scene: &Scene, patterns: &[Pattern]) -> Result<Vec<ClothPlan>> {
             sewn.is_none() && (patterns.len() > 1 || scene.bodies.iter().any(|body| matches!(body, Body::Moving(_))));
         let maps = if bounds.is_none() {
             Maps::None
-        } else if moves {
-            Maps::Moving
         } else {
-            Maps::Still
+            Maps::of(scene.settings.maps, moves)
         };
-        let map_box = |bounds| MapBox::around(bounds, scene.settings.texel as f32);
-        let map_bytes = bounds.map_or(0, |bounds| BodyMaps::bytes_over(&map_box(bounds), moves));
+        let space = |bounds| MapSpace {
+            kind: scene.settings.maps,
+            map_box: MapBox::around(bounds, scene.settings.texel as f32),
+            moving: moves,
+            area: meshes(scene).map(Mesh::area).sum(),
+        };
+        let map_bytes = bounds.map_or(0, |bounds| space(bounds).bytes());
         for (state, model, settings) in &models {
             plans.push(ClothPlan::new(name, state, model, settings, maps, &shapes, map_bytes));
         }

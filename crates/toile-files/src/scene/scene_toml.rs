@@ -14,6 +14,7 @@ pub(crate) struct SceneToml {
     pub gravity: Option<[f64; 3]>,
     pub wind: Option<WindToml>,
     pub spacing: Option<f64>,
+    pub maps: Option<MapsToml>,
     pub texel: Option<f64>,
     pub safety: Option<f64>,
     pub swept: Option<bool>,
@@ -35,6 +36,13 @@ pub(crate) struct SceneToml {
     pub capsule: Vec<CapsuleToml>,
     #[serde(default)]
     pub plane: Vec<PlaneToml>,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum MapsToml {
+    Layers,
+    Sides,
 }
 
 #[derive(Clone, Copy, Deserialize)]

@@ -51,13 +51,13 @@ pub fn answer(kernel: Kernel, input: &mut Input) {
         Kernel::QuadMidpoints => {
             input.midpoints = step::quad_midpoints(&particles.positions, &particles.velocities, &before.model.quads);
         }
-        Kernel::SampleMaps => {
+        Kernel::SampleSides => {
             let [positions, velocities] = before.points();
-            input.probes = step::sample_maps(&positions, &velocities, &before.layers.read, settings);
+            input.probes = step::sample_sides(&positions, &velocities, before.sides.sides(), settings);
         }
-        Kernel::SampleMovingMaps => {
+        Kernel::SampleMovingSides => {
             let [positions, velocities] = before.points();
-            input.probes = step::sample_moving_maps(&positions, &velocities, &before.layers.read, before.lag, settings);
+            input.probes = step::sample_moving_sides(&positions, &velocities, before.sides.sides(), before.lag, settings);
         }
         Kernel::MorphBody => {
             let body = &mut input.body;
@@ -79,6 +79,18 @@ pub fn answer(kernel: Kernel, input: &mut Input) {
         Kernel::VertexVelocities => {
             input.body.velocities =
                 maps::vertex_velocities(&before.body.last_positions, &before.body.positions, before.rate);
+        }
+        Kernel::SampleLayers => {
+            let [positions, velocities] = before.points();
+            input.probes = step::sample_layers(&positions, &velocities, before.layers.layers(), settings);
+        }
+        Kernel::SampleMovingLayers => {
+            let [positions, velocities] = before.points();
+            input.probes =
+                step::sample_moving_layers(&positions, &velocities, before.layers.layers(), before.lag, settings);
+        }
+        Kernel::DrawLayers | Kernel::DrawMovingLayers | Kernel::SortLayers => {
+            panic!("the maps are compared as a whole: columns come in no order")
         }
         Kernel::SampleShapes => {
             let [positions, velocities] = before.points();

@@ -11,8 +11,8 @@ pub trait Inputs {
     /// Bytes of the buffer of a name.
     fn bytes(&self, name: &str) -> Vec<u8>;
 
-    /// The maps, for kernels that look into them.
-    fn maps(&self) -> Option<&BodyMaps>;
+    /// The maps that have the texture of a name, for kernels that look into them.
+    fn maps(&self, name: &str) -> Option<&BodyMaps>;
 }
 
 /// A kernel compiled from any WGSL with that kernel's interface: its own, or a sabotaged one.
@@ -48,7 +48,7 @@ impl Compiled {
                 let kind = match binding.resource {
                     Resource::Uniform { .. } => wgpu::BufferUsages::UNIFORM,
                     Resource::Storage { .. } => wgpu::BufferUsages::STORAGE,
-                    Resource::DepthTexture | Resource::FloatTexture => return None,
+                    _ => return None,
                 };
                 let mut contents = inputs.bytes(&binding.name);
                 if contents.is_empty() {
@@ -63,24 +63,25 @@ impl Compiled {
                 Some((binding.name.as_str(), buffer))
             })
             .collect();
-        let view =
-            wgpu::TextureViewDescriptor { dimension: Some(wgpu::TextureViewDimension::D2Array), ..Default::default() };
         let map = |name: &str| {
-            let maps = inputs.maps().expect("a kernel with textures looks into maps");
+            let maps = inputs.maps(name).expect("a kernel with textures looks into maps");
             let texture = match name {
-                "depth_map" => maps.depth(),
-                "normal_map" => maps.normals(),
-                "velocity_map" => maps.velocities().expect("maps of moving bodies"),
+                "side_depths" | "layer_depths" => maps.depths(),
+                "side_normals" | "layer_normals" => maps.normals(),
+                "side_velocities" | "layer_velocities" => maps.velocities().expect("maps of moving bodies"),
+                "layer_columns" => maps.columns().expect("layered maps"),
                 other => panic!("the kernels name a texture {other} that the input does not know"),
             };
-            texture.create_view(&view)
+            let layered = texture.depth_or_array_layers() > 1;
+            let dimension = if layered { wgpu::TextureViewDimension::D2Array } else { wgpu::TextureViewDimension::D2 };
+            texture.create_view(&wgpu::TextureViewDescriptor { dimension: Some(dimension), ..Default::default() })
         };
         let views: BTreeMap<&str, wgpu::TextureView> = self
             .program
             .interface()
             .bindings
             .iter()
-            .filter(|binding| matches!(binding.resource, Resource::DepthTexture | Resource::FloatTexture))
+            .filter(|binding| !matches!(binding.resource, Resource::Uniform { .. } | Resource::Storage { .. }))
             .map(|binding| (binding.name.as_str(), map(&binding.name)))
             .collect();
         let group = self.program.bind(&gpu.device, |binding| match views.get(binding.name.as_str()) {

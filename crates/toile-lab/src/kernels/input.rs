@@ -1,7 +1,7 @@
 //! Everything a kernel may read or write, on the side of the reference, and its bytes on the device.
 
 use super::Inputs;
-use crate::Layers;
+use crate::DrawnMaps;
 use encase::{ShaderType, StorageBuffer, internal::WriteInto};
 use glam::Vec3;
 use std::ops::Range;
@@ -64,8 +64,10 @@ pub struct Input {
     pub after_maps: bool,
     /// Time from the step to that of the maps.
     pub lag: Lag,
-    /// Maps of the bodies.
-    pub layers: Layers,
+    /// The papers' maps of the bodies.
+    pub sides: DrawnMaps,
+    /// Layered maps of the bodies.
+    pub layers: DrawnMaps,
     /// Skin of a body that moves.
     pub skin: Skin,
     /// Its pose.
@@ -170,7 +172,8 @@ impl Inputs for Input {
             "body_normals" => padded(&self.body.normals, 0.0),
             "last_positions" => padded(&self.body.last_positions, 1.0),
             "surface_velocities" => padded(&self.body.velocities, 0.0),
-            "map_box" => uniform(&self.layers.read.map_box.encode()),
+            "side_box" => uniform(&self.sides.sides().map_box.encode()),
+            "layer_box" => uniform(&self.layers.layers().map_box.encode()),
             "open_positions" => with_w(&self.open.positions, &self.open.inverse_masses),
             "open_velocities" => with_w(&self.open.velocities, &self.open.masses),
             "position_copies" => with_w(&self.copies.positions, &self.copies.inverse_masses),
@@ -215,8 +218,8 @@ impl Inputs for Input {
         }
     }
 
-    fn maps(&self) -> Option<&BodyMaps> {
-        Some(&self.layers.maps)
+    fn maps(&self, name: &str) -> Option<&BodyMaps> {
+        Some(if name.starts_with("side") { &self.sides.maps } else { &self.layers.maps })
     }
 }
 

@@ -1,14 +1,14 @@
 //! Seeded input of any size that leads into every branch of a kernel.
 
 use super::input::{Input, Posed};
-use crate::{Gpu, Layers, Random};
+use crate::{DrawnMaps, Gpu, Random};
 use glam::{DVec3, Vec3, Vec4, dvec3, vec3};
-use toile::gpu::{GpuError, Surface};
+use toile::gpu::{GpuError, MapSpace, Surface};
 use toile::model::{
     Attachment, Csr, Hold, Limit, Link, MapBox, Model, NO_CORNER, STRAND_PARTICLES_MAX, SeamPair, ShapeKind, ShapeStep,
     StepSettings, Strand,
 };
-use toile::scene::{Displacement, Fabric, Friction, Influence, Mesh, Morphs, Polish, Pose, Settings, Skin, Wind};
+use toile::scene::{Displacement, Fabric, Friction, Influence, MapKind, Mesh, Morphs, Polish, Pose, Settings, Skin, Wind};
 use toile_kernels::{Domain, Kernel, TABLE};
 use toile_reference::step::PolishState;
 use toile_reference::{Contact, Lag, Midpoints, Particles, Probe, frame};
@@ -33,6 +33,9 @@ const WIND: DVec3 = dvec3(1.5, 0.25, -2.0);
 /// Middle between two shapes that mirror each other [m]; few digits, so that a point there is as far from both.
 const MIRROR: Vec3 = vec3(-0.25, -0.5, 0.0);
 
+/// Edge length of a texel of the maps [m].
+const TEXEL: f32 = 0.031;
+
 /// How many of each thing there are.
 struct Counts {
     particles: u32,
@@ -48,8 +51,8 @@ struct Counts {
 #[derive(Debug)]
 pub struct Seeds {
     seed: u64,
-    layers: Layers,
-    moving_layers: Layers,
+    still: [DrawnMaps; 2],
+    moving: [DrawnMaps; 2],
 }
 
 impl Seeds {
@@ -58,7 +61,7 @@ impl Seeds {
     /// # Errors
     /// [`GpuError`] when the device is lost.
     pub fn new(gpu: &Gpu, seed: u64) -> Result<Self, GpuError> {
-        Ok(Self { seed, layers: layers(gpu)?, moving_layers: moving_layers(gpu)? })
+        Ok(Self { seed, still: maps(gpu, false)?, moving: maps(gpu, true)? })
     }
 
     /// Input on which `kernel` works on `items` items.
@@ -87,6 +90,8 @@ impl Seeds {
         let (open, members) = open_particles(random, counts.particles);
         let (holds, held_particles) = holds(random, &particles, counts.holds);
         let (skin, pose, body) = body(random, if domain == Domain::Vertex { items } else { 1 });
+        let moving = matches!(kernel, Kernel::SampleMovingSides | Kernel::SampleMovingLayers);
+        let [sides, layers] = if moving { &self.moving } else { &self.still };
         let mut input = Input {
             // Holds and strands take a whole workgroup.
             invocations: match domain {
@@ -97,7 +102,8 @@ impl Seeds {
             shapes: shapes(),
             after_maps: variant != Variant::Weightless,
             lag: Lag::of(3, 8, settings.dt),
-            layers: if kernel == Kernel::SampleMovingMaps { &self.moving_layers } else { &self.layers }.clone(),
+            sides: sides.clone(),
+            layers: layers.clone(),
             rate: if variant == Variant::Weightless { 0.0 } else { 120.0 },
             open,
             members,
@@ -230,6 +236,7 @@ fn counts(domain: Domain, items: u32) -> Counts {
         Domain::StrandColour => Counts { particles: 8 * items + STRAND_PARTICLES_MAX, others: 2, ..none },
         Domain::Workgroup => Counts { partials: items, ..none },
         Domain::Vertex => Counts { particles: 1, ..none },
+        Domain::TrianglePart | Domain::Column => panic!("maps are drawn of whole bodies"),
     }
 }
 
@@ -501,22 +508,30 @@ fn open_particles(random: &mut Random, sewn: u32) -> (Particles, Csr<u32>) {
     (open, Csr::from_rows(rows))
 }
 
-/// Maps in which the front and the back see different bodies.
-fn layers(gpu: &Gpu) -> Result<Layers, GpuError> {
-    let [ball, block] = bodies();
-    Layers::draw(gpu, &[(&ball, 0.005), (&block, 0.01)], 0.031)
-}
-
-/// The same bodies, on their way.
-fn moving_layers(gpu: &Gpu) -> Result<Layers, GpuError> {
+/// Maps of either kind of two bodies, of which the front and the back see different ones, and of an open sheet that both see edge on; at rest
+/// or on their way.
+fn maps(gpu: &Gpu, moving: bool) -> Result<[DrawnMaps; 2], GpuError> {
     let random = &mut Random::new(7);
-    let surfaces = bodies().map(|mesh| {
+    let [ball, block] = bodies();
+    let sheet = Mesh {
+        positions: [[-0.3, -0.3], [0.3, -0.3], [0.3, 0.3], [-0.3, 0.3]].map(|[x, z]| vec3(x, 0.46, z)).to_vec(),
+        normals: vec![Vec3::Y; 4],
+        triangles: vec![[0, 2, 1], [0, 3, 2]],
+    };
+    let map_box = MapBox::around([vec3(-0.47, -0.47, -0.57), vec3(0.37, 0.42, 0.42)], TEXEL);
+    let surfaces = [&ball, &block, &sheet].map(|mesh| {
         let velocities: Vec<Vec4> = mesh.positions.iter().map(|_| random.vector(2.0).extend(0.0)).collect();
-        let buffer = gpu.upload(bytemuck::cast_slice(&velocities), wgpu::BufferUsages::VERTEX);
-        Surface { velocities: Some(buffer), ..Surface::new(&gpu.device, &mesh) }
+        let usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE;
+        let velocities = moving.then(|| gpu.upload(bytemuck::cast_slice(&velocities), usage));
+        Surface { velocities, ..Surface::new(&gpu.device, mesh, TEXEL) }
     });
-    let map_box = MapBox::around([vec3(-0.47, -0.47, -0.57), vec3(0.37, 0.42, 0.42)], 0.031);
-    Layers::draw_surfaces(gpu, &[(&surfaces[0], 0.005), (&surfaces[1], 0.01)], map_box)
+    let [ball, block, sheet] = surfaces;
+    let sheet = Surface { open: true, ..sheet };
+    let space = MapSpace { kind: MapKind::Sides, map_box, moving, area: 6.0 };
+    let sides = DrawnMaps::draw_surfaces(gpu, &[(&ball, 0.005), (&block, 0.01)], &space)?;
+    let space = MapSpace { kind: MapKind::Layers, ..space };
+    let layers = DrawnMaps::draw_surfaces(gpu, &[(&ball, 0.0), (&block, 0.0), (&sheet, 0.0)], &space)?;
+    Ok([sides, layers])
 }
 
 fn bodies() -> [Mesh; 2] {
@@ -567,7 +582,7 @@ fn body(random: &mut Random, vertices: u32) -> (Skin, Pose, Posed) {
 
 /// Moves some points to the borders of the maps, the centres and the surfaces of the shapes, and to where there is no number.
 fn place_at_the_edges(random: &mut Random, input: &mut Input) {
-    let map_box = input.layers.read.map_box;
+    let map_box = input.sides.sides().map_box;
     let count = input.particle_count();
     for i in 0..count + input.midpoints.positions.len() {
         let (position, velocity) = if i < count {

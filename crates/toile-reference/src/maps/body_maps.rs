@@ -1,19 +1,41 @@
-//! The maps of a body, texel by texel.
+//! The maps of bodies, of either kind.
 
-use glam::Vec3;
+use super::render_sides::box_around;
+use super::{LayerMaps, SideMaps, Surface, draw_layers, render_sides_in};
 use toile_model::MapBox;
+use toile_scene::MapKind;
 
-/// The maps of a body. Layer 0 is what the front camera at +z sees, layer 1 what the back camera at −z sees.
-///
-/// Texel (column, row) has index row·columns + column; row 0 is the top. Every layer has the shape [rows·columns]. W §4.
+/// The maps of bodies.
 #[derive(Clone, Debug, PartialEq)]
-pub struct BodyMaps {
-    /// Where the maps stand in the world.
-    pub map_box: MapBox,
-    /// Distance from the camera's plane, 0 to 1 of the distance of both planes; 1 where there is nothing.
-    pub depth: [Vec<f32>; 2],
-    /// Unit normals of the surface, facing the camera; zero where there is nothing.
-    pub normals: [Vec<Vec3>; 2],
-    /// Velocities of the surface [m/s]; `None` for bodies at rest.
-    pub velocities: Option<[Vec<Vec3>; 2]>,
+pub enum BodyMaps {
+    /// The papers' maps.
+    Sides(SideMaps),
+    /// Layered maps.
+    Layers(LayerMaps),
+}
+
+impl BodyMaps {
+    /// Draws all surfaces into a box.
+    pub fn draw(kind: MapKind, surfaces: &[Surface], map_box: MapBox) -> Self {
+        match kind {
+            MapKind::Sides => Self::Sides(render_sides_in(surfaces, map_box)),
+            MapKind::Layers => Self::Layers(draw_layers(surfaces, map_box).maps),
+        }
+    }
+
+    /// Draws all surfaces into the box around them, with texels of the edge length `texel` [m].
+    ///
+    /// # Panics
+    /// When no surface has a vertex.
+    pub fn around(kind: MapKind, surfaces: &[Surface], texel: f32) -> Self {
+        Self::draw(kind, surfaces, box_around(surfaces, texel))
+    }
+
+    /// Whether they have velocities.
+    pub fn is_moving(&self) -> bool {
+        match self {
+            Self::Sides(maps) => maps.velocities.is_some(),
+            Self::Layers(maps) => maps.velocities.is_some(),
+        }
+    }
 }

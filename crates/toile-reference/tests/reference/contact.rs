@@ -3,9 +3,9 @@
 use crate::support::{GRAVITY, Grid, settings};
 use glam::{DVec3, Vec3, vec2, vec3};
 use toile_model::{NO_CORNER, ShapeStep, StepSettings};
-use toile_reference::maps::{BodyMaps, Surface, render_maps};
-use toile_reference::{Colliders, Contact, Probe, Reference, step};
-use toile_scene::{Friction, Mesh, Rule, Shape, ShapeMotion};
+use toile_reference::maps::{BodyMaps, Surface};
+use toile_reference::{Colliders, Contact, Lag, Probe, Reference, step};
+use toile_scene::{Friction, MapKind, Mesh, Rule, Shape, ShapeMotion};
 
 /// Coulomb coefficient of the plate: it holds up to 16.7°.
 const FRICTION: f32 = 0.3;
@@ -13,7 +13,7 @@ const FRICTION: f32 = 0.3;
 /// A plate with its front at z = 0.
 fn plate() -> BodyMaps {
     let mesh = Mesh::cuboid(vec3(-0.5, -0.5, -0.1), vec3(3.0, 0.5, 0.0));
-    render_maps(&[Surface { mesh: &mesh, thickness: 0.0, velocities: None }], 0.01)
+    BodyMaps::around(MapKind::Layers, &[Surface { mesh: &mesh, thickness: 0.0, velocities: None, open: false }], 0.01)
 }
 
 /// Speed [m/s] down the slope and distance [m] after 1 s of a cloth that starts at rest on the plate, under gravity tilted by
@@ -95,7 +95,7 @@ fn pressed(pressing: f32, sweeps: u32) -> Vec3 {
     let mut particles = toile_reference::Particles::new(&model);
     particles.positions.iter_mut().for_each(|position| position.z = 0.0);
     particles.velocities.fill(vec3(2.0, 0.0, -1.0));
-    let probes = step::sample_maps(&particles.positions, &particles.velocities, &maps, &settings);
+    let probes = step::sample_body_maps(&particles.positions, &particles.velocities, &maps, Lag::default(), &settings);
     let midpoints = step::quad_midpoints(&particles.positions, &particles.velocities, &model.quads);
     let seen = step::Probes { particles: &probes, quads: &[Probe::default()] };
     step::collide(&mut particles, &model.particle_quads, &midpoints, seen, &settings);
@@ -122,7 +122,7 @@ fn a_rebound_gives_back_its_part_of_the_approach() {
     for position in &mut model.positions {
         position.z = 0.0005;
     }
-    let probes = step::sample_maps(&model.positions, &[vec3(0.1, 0.0, -1.0); 4], &maps, &settings);
+    let probes = step::sample_body_maps(&model.positions, &[vec3(0.1, 0.0, -1.0); 4], &maps, Lag::default(), &settings);
     let mut particles = toile_reference::Particles::new(&model);
     particles.velocities = vec![vec3(0.1, 0.0, -1.0); 4];
     let midpoints = step::quad_midpoints(&particles.positions, &particles.velocities, &model.quads);
@@ -157,13 +157,13 @@ fn the_nearer_side_of_the_plate_answers() {
     let settings = settings();
     // Farther out than the reach of four texels of the plate's maps nothing answers.
     let points = [-0.01, -0.09, 0.1, -0.2].map(|z| vec3(0.203, 0.104, z));
-    let probes = step::sample_maps(&points, &[Vec3::ZERO; 4], &maps, &settings);
+    let probes = step::sample_body_maps(&points, &[Vec3::ZERO; 4], &maps, Lag::default(), &settings);
     assert_eq!(probes.iter().map(|probe| probe.hit).collect::<Vec<_>>(), [true, true, false, false]);
     assert_eq!((probes[0].normal, probes[1].normal), (Vec3::Z, Vec3::NEG_Z));
     for probe in &probes[..2] {
         assert!((probe.distance + 0.01).abs() < 1e-6, "{probe:?}");
     }
-    let not_a_number = step::sample_maps(&[Vec3::NAN], &[Vec3::ZERO], &maps, &settings);
+    let not_a_number = step::sample_body_maps(&[Vec3::NAN], &[Vec3::ZERO], &maps, Lag::default(), &settings);
     assert!(!not_a_number[0].hit);
 }
 
@@ -281,9 +281,9 @@ fn a_sheet_that_falls_on_a_plane_that_swings_stays_above_it() {
 #[test]
 fn maps_are_read_where_they_were_drawn() {
     let mesh = Mesh::cuboid(vec3(0.1, 0.3, 0.0), vec3(0.2, 0.5, 0.1));
-    let maps = render_maps(&[Surface { mesh: &mesh, thickness: 0.0, velocities: None }], 0.01);
+    let maps = BodyMaps::around(MapKind::Layers, &[Surface { mesh: &mesh, thickness: 0.0, velocities: None, open: false }], 0.01);
     let points = [vec3(0.12, 0.33, 0.05), vec3(0.18, 0.48, 0.05), vec3(0.12, 0.28, 0.05), vec3(0.08, 0.48, 0.05)];
-    let probes = step::sample_maps(&points, &[Vec3::ZERO; 4], &maps, &settings());
+    let probes = step::sample_body_maps(&points, &[Vec3::ZERO; 4], &maps, Lag::default(), &settings());
     assert_eq!(probes.iter().map(|probe| probe.hit).collect::<Vec<_>>(), [true, true, false, false]);
 }
 

@@ -1,13 +1,13 @@
-//! Maps of meshes against their analytic shapes.
+//! The papers' maps of meshes against their analytic shapes.
 
 use glam::{Vec3, vec3};
-use toile_reference::maps::{BodyMaps, Surface, render_maps};
+use toile_reference::maps::{SideMaps, Surface, render_sides};
 use toile_scene::Mesh;
 
 const CENTRE: Vec3 = vec3(0.3, 0.7, -0.2);
 
 /// World x and y of the centre of each texel with its index.
-fn centres(maps: &BodyMaps) -> Vec<(usize, f32, f32)> {
+fn centres(maps: &SideMaps) -> Vec<(usize, f32, f32)> {
     let map_box = maps.map_box;
     let centres = (0..map_box.rows).flat_map(|row| (0..map_box.columns).map(move |column| (column, row)));
     centres
@@ -22,7 +22,7 @@ fn centres(maps: &BodyMaps) -> Vec<(usize, f32, f32)> {
 }
 
 /// Largest differences of height [m] and of normal [1] from a sphere of `radius` [m] in the texels of its inner 90 %.
-fn sphere_errors(maps: &BodyMaps, radius: f32) -> (f32, f32) {
+fn sphere_errors(maps: &SideMaps, radius: f32) -> (f32, f32) {
     let range = maps.map_box.z_front - maps.map_box.z_back;
     let mut errors = (0.0_f32, 0.0_f32);
     for (texel, x, y) in centres(maps) {
@@ -49,7 +49,7 @@ fn sphere_errors(maps: &BodyMaps, radius: f32) -> (f32, f32) {
 fn a_sphere_has_the_depth_and_normals_of_a_sphere() {
     // Flat facets lie up to r·(1 − cos(π/2n))·2 = 0.02 mm inside, at 90 % of the radius 2.3 times that along z.
     let mesh = Mesh::sphere(CENTRE, 0.25, 128);
-    let maps = render_maps(&[Surface { mesh: &mesh, thickness: 0.0, velocities: None }], 0.005);
+    let maps = render_sides(&[Surface { mesh: &mesh, thickness: 0.0, velocities: None, open: false }], 0.005);
     let (height, normal) = sphere_errors(&maps, 0.25);
     assert!(height < 1e-4 && normal < 2e-3, "{height} {normal}");
 }
@@ -57,7 +57,7 @@ fn a_sphere_has_the_depth_and_normals_of_a_sphere() {
 #[test]
 fn thickness_makes_a_larger_sphere_evenly() {
     let mesh = Mesh::sphere(CENTRE, 0.25, 128);
-    let maps = render_maps(&[Surface { mesh: &mesh, thickness: 0.01, velocities: None }], 0.005);
+    let maps = render_sides(&[Surface { mesh: &mesh, thickness: 0.01, velocities: None, open: false }], 0.005);
     let (height, normal) = sphere_errors(&maps, 0.26);
     assert!(height < 1e-4 && normal < 2e-3, "{height} {normal}");
 }
@@ -65,7 +65,7 @@ fn thickness_makes_a_larger_sphere_evenly() {
 #[test]
 fn the_oracle_of_the_sphere_sees_swapped_sides() {
     let mesh = Mesh::sphere(CENTRE, 0.25, 128);
-    let mut maps = render_maps(&[Surface { mesh: &mesh, thickness: 0.0, velocities: None }], 0.005);
+    let mut maps = render_sides(&[Surface { mesh: &mesh, thickness: 0.0, velocities: None, open: false }], 0.005);
     maps.normals.swap(0, 1);
     assert!(sphere_errors(&maps, 0.25).1 > 0.5);
 }
@@ -76,8 +76,8 @@ fn row_0_is_the_top_and_column_0_the_left() {
         Mesh::cuboid(vec3(-0.1, -0.1, -0.1), vec3(0.1, 0.1, 0.1)),
         Mesh::cuboid(vec3(0.1, 0.1, 0.2), vec3(0.2, 0.3, 0.3)),
     ];
-    let surfaces = [&big, &flag].map(|mesh| Surface { mesh, thickness: 0.0, velocities: None });
-    let maps = render_maps(&surfaces, 0.01);
+    let surfaces = [&big, &flag].map(|mesh| Surface { mesh, thickness: 0.0, velocities: None, open: false });
+    let maps = render_sides(&surfaces, 0.01);
     let range = maps.map_box.z_front - maps.map_box.z_back;
     for (texel, x, y) in centres(&maps) {
         let inside = |low: f32, high: f32, value: f32| value > low + 1e-4 && value < high - 1e-4;
@@ -105,9 +105,9 @@ fn the_nearest_surface_is_seen_whatever_the_order() {
         Mesh::cuboid(vec3(-0.1, -0.1, 0.1), vec3(0.1, 0.1, 0.2)),
         Mesh::cuboid(vec3(-0.1, -0.1, -0.2), vec3(0.1, 0.1, -0.1)),
     ];
-    let surfaces = [&near, &far].map(|mesh| Surface { mesh, thickness: 1e-3, velocities: None });
-    let maps = render_maps(&surfaces, 0.01);
-    let turned = render_maps(&[surfaces[1], surfaces[0]], 0.01);
+    let surfaces = [&near, &far].map(|mesh| Surface { mesh, thickness: 1e-3, velocities: None, open: false });
+    let maps = render_sides(&surfaces, 0.01);
+    let turned = render_sides(&[surfaces[1], surfaces[0]], 0.01);
     assert_eq!(maps, turned);
     let texel = 10 * maps.map_box.columns as usize + 10;
     assert!(maps.depth[0][texel] < 0.01 && maps.depth[1][texel] < 0.01);
@@ -119,7 +119,7 @@ fn an_inverted_mesh_still_faces_the_cameras() {
     for normal in &mut mesh.normals {
         *normal = -*normal;
     }
-    let maps = render_maps(&[Surface { mesh: &mesh, thickness: 0.0, velocities: None }], 0.01);
+    let maps = render_sides(&[Surface { mesh: &mesh, thickness: 0.0, velocities: None, open: false }], 0.01);
     for (texel, ..) in centres(&maps) {
         assert!(maps.normals[0][texel].z >= 0.0 && maps.normals[1][texel].z <= 0.0);
     }

@@ -12,7 +12,7 @@ use toile::model::{Model, StepSettings};
 use toile::scene::{Mesh, Settings};
 use toile_lab::scenes::{body, fabric, square};
 use toile_lab::{Lab, LabError};
-use toile_reference::maps::{Surface, render_maps};
+use toile_reference::maps::{Surface, render_sides};
 use toile_reference::{ExactDistance, ObjectSpace, step};
 
 /// The row of the table.
@@ -80,7 +80,7 @@ pub fn compare(mesh: &Mesh, collision: &Collision, n: u32, steps_max: u32) -> Co
 pub fn image(mesh: &Mesh) -> Collision {
     let settings = Settings::new(fabric());
     let thickness = settings.fabric.thickness as f32;
-    Collision::Image(render_maps(&[Surface { mesh, thickness, velocities: None }], settings.texel as f32))
+    Collision::Image(render_sides(&[Surface { mesh, thickness, velocities: None, open: false }], settings.texel as f32))
 }
 
 /// Settings, model and step of a sheet above a body.

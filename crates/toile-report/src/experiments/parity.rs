@@ -2,7 +2,7 @@
 
 use crate::Experiment;
 use crate::page::{Axis, Block, Cell, Plot, Section, Series, SeriesStyle, Table};
-use toile_kernels::{Kernel, TABLE};
+use toile_kernels::{Kernel, Stage, TABLE};
 use toile_lab::kernels::{Compiled, Inputs, Seeds, VARIANTS, answer, ulps};
 use toile_lab::{Gpu, Lab, LabError};
 
@@ -87,9 +87,11 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
     let mut table = Table::new(caption.clone(), &columns);
     let mut total = [0; 6];
     let mut first = None;
-    for (index, row) in TABLE.iter().enumerate() {
+    // Kernels that draw maps leave columns in no order: the tests compare the maps as a whole.
+    let rows: Vec<_> = TABLE.iter().filter(|row| row.stage != Stage::Maps).collect();
+    for (index, row) in rows.iter().enumerate() {
         let name = row.kernel.name();
-        lab.say(index as f64 / TABLE.len() as f64, &format!("parity of {name}"))?;
+        lab.say(index as f64 / rows.len() as f64, &format!("parity of {name}"))?;
         let Some(histogram) = kernel_histogram(&gpu, &seeds, row.kernel, items, |source| source)? else {
             table.push([Cell::text(name)].into_iter().chain((0..8).map(|_| Cell::text("does not compile"))).collect());
             first.get_or_insert(name);
@@ -106,7 +108,7 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
     let lead = match first {
         None => format!(
             "All {} kernels agree with the reference in all bits of {words} words on this adapter.",
-            TABLE.len()
+            rows.len()
         ),
         Some(name) => format!(
             "The first kernel of the algorithm that differs from the reference on this adapter is {name}. {} of {words} words agree in all bits.",

@@ -6,7 +6,7 @@ use toile::Colliders;
 use toile::model::{Model, StepSettings};
 use toile::scene::{Mesh, RigidKey, RigidMotion, Settings, Shape, ShapeMotion, Sheet};
 use toile_lab::scenes::{ball, fabric, hanging_sheet, square};
-use toile_lab::{Lab, LabError, Layers};
+use toile_lab::{DrawnMaps, Lab, LabError};
 use toile_reference::ExactDistance;
 
 const N: u32 = 12;
@@ -54,7 +54,7 @@ fn inside(lab: &Lab) -> Result<Outcome, LabError> {
     let settings = Settings { gravity: DVec3::ZERO, ..settings };
     let model = Model::from_sheet(&sheet, &settings);
     let step = StepSettings::new(&settings, &model);
-    let layers = Layers::draw(&lab.gpu(), &[(&body, step.thickness)], settings.texel as f32)?;
+    let layers = DrawnMaps::draw(&lab.gpu(), settings.maps, &[(&body, step.thickness)], settings.texel as f32)?;
     let colliders = Colliders { maps: Some(layers.maps), shapes: Vec::new() };
     let (run, course) = course(lab, model, step, colliders, FRAMES)?;
     let exact = ExactDistance::new(&body);

@@ -7,8 +7,8 @@ use toile::scene::{Mesh, Settings};
 use toile_lab::scenes::body;
 use toile_lab::{Lab, LabError};
 use toile_reference::ExactDistance;
-use toile_reference::maps::{BodyMaps, Surface, render_maps_in};
-use toile_reference::step::sample_maps;
+use toile_reference::maps::{SideMaps, Surface, render_sides_in};
+use toile_reference::step::sample_sides;
 
 /// Distance that the cloth keeps from the body [m]: the tolerance of D §5.4.
 const THICKNESS: f64 = 0.005;
@@ -94,7 +94,7 @@ impl Shell {
 }
 
 /// Whether maps show a place of the surface, within what a slope of three and the texels' size make of the depth.
-fn is_seen(maps: &BodyMaps, place: DVec3) -> bool {
+fn is_seen(maps: &SideMaps, place: DVec3) -> bool {
     let map_box = maps.map_box;
     let texel = f64::from(map_box.texel);
     let column = ((place.x - f64::from(map_box.origin_x)) / texel).floor();
@@ -114,7 +114,7 @@ pub fn map_error(body: &Mesh, exact: &ExactDistance, shell: &Shell, probing: Pro
     let maps = draw(body, probing, THICKNESS);
     let settings = Settings::new(toile_lab::scenes::fabric());
     let step = StepSettings::new(&settings, &Model::default());
-    let probes = sample_maps(&shell.points, &vec![Vec3::ZERO; shell.points.len()], &maps, &step);
+    let probes = sample_sides(&shell.points, &vec![Vec3::ZERO; shell.points.len()], &maps, &step);
     let mut depths = [Vec::new(), Vec::new()];
     let mut moves = [Vec::new(), Vec::new()];
     for (((point, depth), seen), probe) in shell.points.iter().zip(&shell.depths).zip(&shell.seen).zip(&probes) {
@@ -173,7 +173,7 @@ fn points_near(body: &Mesh, count: usize, seed: u64) -> Vec<Vec3> {
 }
 
 /// The maps of a body with a thickness of cloth on it [m].
-fn draw(body: &Mesh, probing: Probing, thickness: f64) -> BodyMaps {
+fn draw(body: &Mesh, probing: Probing, thickness: f64) -> SideMaps {
     let texel = probing.texel as f32;
     let [low, high] = body.bounds().unwrap_or_default();
     // Room for the thickness and for the layers of texels.
@@ -181,7 +181,7 @@ fn draw(body: &Mesh, probing: Probing, thickness: f64) -> BodyMaps {
     let map_box = MapBox::around([low - room, high + room], texel);
     let by_normals = probing.offset == Offset::Normals;
     let along_normals = if by_normals { thickness as f32 } else { 0.0 };
-    let mut maps = render_maps_in(&[Surface { mesh: body, thickness: along_normals, velocities: None }], map_box);
+    let mut maps = render_sides_in(&[Surface { mesh: body, thickness: along_normals, velocities: None, open: false }], map_box);
     if !by_normals {
         add_layers(&mut maps, thickness);
     }
@@ -195,7 +195,7 @@ fn draw(body: &Mesh, probing: Probing, thickness: f64) -> BodyMaps {
 }
 
 /// Moves the depths towards the cameras by the thickness, and lets the silhouette grow by layers of texels.
-fn add_layers(maps: &mut BodyMaps, thickness: f64) {
+fn add_layers(maps: &mut SideMaps, thickness: f64) {
     let map_box = maps.map_box;
     let layers = (thickness / f64::from(map_box.texel)).round().max(1.0) as u32;
     let nearer = thickness as f32 / (map_box.z_front - map_box.z_back);

@@ -4,9 +4,9 @@ use crate::experiments::terms::term::{Scene, Term};
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
 use toile::Colliders;
-use toile::gpu::{BodyMaps, Surface};
+use toile::gpu::{BodyMaps, MapSpace, Surface};
 use toile::model::{Csr, MapBox, Model, StepSettings};
-use toile::scene::{Friction, Mesh, Rule, Settings, Shape, ShapeMotion, VelocityModification, Wind};
+use toile::scene::{Friction, MapKind, Mesh, Rule, Settings, Shape, ShapeMotion, VelocityModification, Wind};
 use toile_lab::scenes::{BALL_RADIUS, ball, fabric, hanging_sheet, square};
 use toile_lab::{Lab, LabError, Run};
 
@@ -133,7 +133,7 @@ struct MovingBall {
     sphere: Shape,
     maps: Arc<BodyMaps>,
     thickness: f32,
-    size: [u32; 2],
+    size: [u32; 3],
     with_velocities: bool,
 }
 
@@ -144,7 +144,10 @@ impl MovingBall {
         let thickness = step.thickness;
         let size = MapBox::size_for(Vec3::splat(2.0 * reach(thickness)), TEXEL);
         let map_box = map_box_at(&sphere, 0.0, thickness, size);
-        let maps = Arc::new(BodyMaps::new(&lab.device, map_box, with_velocities)?);
+        // Area of a sphere.
+        let area = 4.0 * std::f64::consts::PI * BALL_RADIUS * BALL_RADIUS;
+        let space = MapSpace { kind: MapKind::Layers, map_box, moving: with_velocities, area };
+        let maps = Arc::new(BodyMaps::new(&lab.device, &space)?);
         Ok(Self { sphere, maps, thickness, size, with_velocities })
     }
 
@@ -154,7 +157,7 @@ impl MovingBall {
         let [before, centre] = [time - INTERVAL, time].map(|time| self.sphere.at(time).0);
         let mut mesh = Mesh::sphere(Vec3::ZERO, BALL_RADIUS as f32, 24);
         mesh.positions.iter_mut().for_each(|position| *position += centre.as_vec3());
-        let mut surface = Surface::new(&lab.device, &mesh);
+        let mut surface = Surface::new(&lab.device, &mesh, TEXEL);
         if self.with_velocities {
             let velocity = ((centre - before) / INTERVAL).as_vec3();
             surface.velocities = Some(lab.vertex_buffer(&vec![velocity; mesh.positions.len()]));
@@ -170,7 +173,7 @@ fn reach(thickness: f32) -> f32 {
     BALL_RADIUS as f32 + thickness + 2.0 * TEXEL
 }
 
-fn map_box_at(sphere: &Shape, time: f64, thickness: f32, size: [u32; 2]) -> MapBox {
+fn map_box_at(sphere: &Shape, time: f64, thickness: f32, size: [u32; 3]) -> MapBox {
     let [centre, reach] = [sphere.at(time).0.as_vec3(), Vec3::splat(reach(thickness))];
     MapBox::moving([centre - reach, centre + reach], TEXEL, size)
 }

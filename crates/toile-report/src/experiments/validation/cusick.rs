@@ -8,7 +8,7 @@ use toile::scene::{Curve, Edge, Fabric, Garment, Mesh, Panel, Placement, Setting
 use toile_lab::shapes::cylinder;
 use toile_lab::{Lab, LabError, Random, settled};
 use toile_reference::Colliders;
-use toile_reference::maps::{Surface, render_maps};
+use toile_reference::maps::{BodyMaps, Surface, render_sides};
 
 /// Radius of the supporting disc and of the sample [m].
 const SUPPORT: f64 = 0.09;
@@ -60,7 +60,8 @@ pub fn drape(seed: u64, fabric: Fabric, spacing: f64, seconds: f64) -> Result<Dr
     }
     let step = StepSettings::new(&settings, &model);
     let disc = cylinder(SUPPORT as f32, 0.3, 64);
-    let maps = render_maps(&[Surface { mesh: &disc, thickness, velocities: None }], settings.texel as f32);
+    let surface = Surface { mesh: &disc, thickness, velocities: None, open: true };
+    let maps = BodyMaps::around(settings.maps, &[surface], settings.texel as f32);
     let colliders = Colliders { maps: Some(maps), shapes: Vec::new() };
     let frames = (seconds * settings.frame_rate).round() as u32;
     let end = settled(&model, &step, colliders, frames);
@@ -129,7 +130,7 @@ fn shadow(positions: &[Vec3], model: &Model) -> f64 {
     const CELL: f64 = 1e-3;
     let mesh =
         Mesh { positions: positions.to_vec(), normals: vec![Vec3::Z; positions.len()], triangles: model.triangles() };
-    let maps = render_maps(&[Surface { mesh: &mesh, thickness: 0.0, velocities: None }], CELL as f32);
+    let maps = render_sides(&[Surface { mesh: &mesh, thickness: 0.0, velocities: None, open: false }], CELL as f32);
     maps.depth[0].iter().filter(|depth| **depth < 1.0).count() as f64 * CELL * CELL
 }
 

@@ -5,7 +5,7 @@ use crate::page::{Block, Cell, Table};
 use glam::{DQuat, DVec2, DVec3, Vec3};
 use toile::Colliders;
 use toile::scene::{Friction, Mesh, Rule, Sheet};
-use toile_lab::{Lab, LabError, Layers, Run};
+use toile_lab::{DrawnMaps, Lab, LabError, Run};
 
 /// μ of the cloth on the plate: atan(0.5) is 26.6°.
 pub const FRICTION: f64 = 0.5;
@@ -43,7 +43,7 @@ pub fn slide(lab: &Lab, degrees: f64, friction: Friction) -> Result<Slide, LabEr
         down: uphill,
         pins: Vec::new(),
     };
-    let layers = Layers::draw(&lab.gpu(), &[(&mesh, thickness as f32)], settings.texel as f32)?;
+    let layers = DrawnMaps::draw(&lab.gpu(), settings.maps, &[(&mesh, thickness as f32)], settings.texel as f32)?;
     let colliders = Colliders { maps: Some(layers.maps), shapes: Vec::new() };
     let mut run = Run::sheet(lab, &sheet, &settings, colliders)?;
     for _ in 0..(SECONDS * settings.frame_rate).round() as u32 {

@@ -6,11 +6,11 @@
 // The maps show the surfaces at one time, and the surfaces move straight on: at `lag` seconds before that time a surface stood
 // back by its velocity. Whoever imports this says how: `surface_velocity`, `drift` and the two lags of a step.
 #import shared/point
-#import struct/MapBox
+#import struct/SideBox
 
-@group(0) var<uniform> map_box: MapBox;
-@group(0) var depth_map: texture_depth_2d_array;
-@group(0) var normal_map: texture_2d_array<f32>;
+@group(0) var<uniform> side_box: SideBox;
+@group(0) var side_depths: texture_depth_2d_array;
+@group(0) var side_normals: texture_2d_array<f32>;
 
 const FRONT: i32 = 0;
 const BACK: i32 = 1;
@@ -34,17 +34,17 @@ struct Column {
 // Place in the maps, in texels from their left and upper border.
 fn texels_of(place: vec3<f32>) -> vec2<f32> {
     return vec2<f32>(
-        (place.x - map_box.origin_x) / map_box.texel,
-        (map_box.origin_y - place.y) / map_box.texel,
+        (place.x - side_box.origin_x) / side_box.texel,
+        (side_box.origin_y - place.y) / side_box.texel,
     );
 }
 
 fn column_at(texel: vec2<i32>) -> Column {
-    let depth_front = textureLoad(depth_map, texel, FRONT, 0);
-    let depth_back = textureLoad(depth_map, texel, BACK, 0);
-    let range = map_box.z_front - map_box.z_back;
-    let front = map_box.z_front - depth_front * range;
-    let back = map_box.z_back + depth_back * range;
+    let depth_front = textureLoad(side_depths, texel, FRONT, 0);
+    let depth_back = textureLoad(side_depths, texel, BACK, 0);
+    let range = side_box.z_front - side_box.z_back;
+    let front = side_box.z_front - depth_front * range;
+    let back = side_box.z_back + depth_back * range;
     return Column(front, back, depth_front < 1.0 && depth_back < 1.0);
 }
 
@@ -52,7 +52,7 @@ fn column_at(texel: vec2<i32>) -> Column {
 fn column_under(texels: vec2<f32>) -> Column {
     let column = floor(texels.x);
     let row = floor(texels.y);
-    if !(column >= 0.0 && column < f32(map_box.columns) && row >= 0.0 && row < f32(map_box.rows)) {
+    if !(column >= 0.0 && column < f32(side_box.columns) && row >= 0.0 && row < f32(side_box.rows)) {
         return Column();
     }
     return column_at(vec2<i32>(i32(column), i32(row)));
@@ -102,7 +102,7 @@ fn entry_of(start: vec3<f32>, way: vec3<f32>, end: vec3<f32>) -> Entry {
         }
         return unanswered;
     }
-    let places = clamp(ceil(length(way.xy) / map_box.texel), 1.0, WAY_PLACES);
+    let places = clamp(ceil(length(way.xy) / side_box.texel), 1.0, WAY_PLACES);
     for (var k = 1.0; k <= places; k += 1.0) {
         var texels = end_texels;
         var z = end.z;
@@ -133,16 +133,16 @@ fn plane_at(point: vec3<f32>, entry: Entry, column: f32, row: f32) -> Probe {
     if !seen.seen {
         return Probe();
     }
-    let reach = REACH * map_box.texel;
+    let reach = REACH * side_box.texel;
     let behind_front = entry.z < seen.front + reach || entry.side == BACK;
     let before_back = entry.z > seen.back - reach || entry.side == FRONT;
     if !(behind_front && before_back) {
         return Probe();
     }
-    let x = map_box.origin_x + (column + 0.5) * map_box.texel;
-    let y = map_box.origin_y - (row + 0.5) * map_box.texel;
-    let normal_front = textureLoad(normal_map, texel, FRONT, 0).xyz;
-    let normal_back = textureLoad(normal_map, texel, BACK, 0).xyz;
+    let x = side_box.origin_x + (column + 0.5) * side_box.texel;
+    let y = side_box.origin_y - (row + 0.5) * side_box.texel;
+    let normal_front = textureLoad(side_normals, texel, FRONT, 0).xyz;
+    let normal_back = textureLoad(side_normals, texel, BACK, 0).xyz;
     let velocity_front = surface_velocity(texel, FRONT);
     let velocity_back = surface_velocity(texel, BACK);
     let distance_front = dot(normal_front, (point + velocity_front * start_lag()) - vec3<f32>(x, y, seen.front));
@@ -163,7 +163,7 @@ fn look(point: vec3<f32>, velocity: vec3<f32>) -> Probe {
     let down = entry.texels.y - 0.5;
     let left = floor(across);
     let top = floor(down);
-    if !(left >= 0.0 && left + 1.0 < f32(map_box.columns) && top >= 0.0 && top + 1.0 < f32(map_box.rows)) {
+    if !(left >= 0.0 && left + 1.0 < f32(side_box.columns) && top >= 0.0 && top + 1.0 < f32(side_box.rows)) {
         return Probe();
     }
     let right_share = across - left;
@@ -192,7 +192,7 @@ fn look(point: vec3<f32>, velocity: vec3<f32>) -> Probe {
     var blended = vec3<f32>(0.0);
     for (var k = 0u; k < 4u; k++) {
         let plane = planes[k];
-        if plane.hit > 0.0 && plane.distance >= nearest - SAME_SURFACE * map_box.texel {
+        if plane.hit > 0.0 && plane.distance >= nearest - SAME_SURFACE * side_box.texel {
             weight_sum = weight_sum + weights[k];
             normal = normal + plane.normal * weights[k];
             distance = distance + plane.distance * weights[k];

@@ -1,6 +1,6 @@
 // Draws the surfaces of the bodies into the depth and normal maps, and those of moving bodies into the velocity map too, seen by
 // the front or the back camera. W §4.1-4.3.
-#import struct/MapBox
+#import struct/SideBox
 #import struct/Side
 
 const FRONT: u32 = 0u;
@@ -21,14 +21,14 @@ struct Colours {
     @location(1) velocity: vec4<f32>,
 }
 
-@group(0) var<uniform> map_box: MapBox;
+@group(0) var<uniform> side_box: SideBox;
 @group(0) var<uniform> camera: Side;
 
 fn project(position: vec3<f32>, normal: vec3<f32>) -> vec4<f32> {
     let surface = position + normal * camera.thickness;
-    let x = 2.0 * ((surface.x - map_box.origin_x) / (f32(map_box.columns) * map_box.texel)) - 1.0;
-    let y = 1.0 - 2.0 * ((map_box.origin_y - surface.y) / (f32(map_box.rows) * map_box.texel));
-    var depth = (map_box.z_front - surface.z) / (map_box.z_front - map_box.z_back);
+    let x = 2.0 * ((surface.x - side_box.origin_x) / (f32(side_box.columns) * side_box.texel)) - 1.0;
+    let y = 1.0 - 2.0 * ((side_box.origin_y - surface.y) / (f32(side_box.rows) * side_box.texel));
+    var depth = (side_box.z_front - surface.z) / (side_box.z_front - side_box.z_back);
     if camera.side != FRONT {
         depth = 1.0 - depth;
     }

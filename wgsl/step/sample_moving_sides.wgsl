@@ -1,10 +1,10 @@
 // What each point sees of moving bodies in the depth, normal and velocity maps, which show them at the end of the recorded
 // steps: in the steps before, every surface stands back by its velocity, so that no step sees it jump. W §4.3-4.4.
-#import shared/map_planes
+#import shared/side_planes
 #import struct/Lag
 
 @group(0) var<uniform> lag: Lag;
-@group(0) var velocity_map: texture_2d_array<f32>;
+@group(0) var side_velocities: texture_2d_array<f32>;
 
 fn start_lag() -> f32 {
     return lag.start;
@@ -15,7 +15,7 @@ fn end_lag() -> f32 {
 }
 
 fn surface_velocity(texel: vec2<i32>, side: i32) -> vec3<f32> {
-    return textureLoad(velocity_map, texel, side, 0).xyz;
+    return textureLoad(side_velocities, texel, side, 0).xyz;
 }
 
 // How the surface near a point moves: where the point lies on it now, it will not lie in the maps.
@@ -34,7 +34,7 @@ fn drift(next: vec3<f32>, velocity: vec3<f32>) -> vec3<f32> {
 }
 
 @compute @workgroup_size(64)
-fn sample_moving_maps(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
+fn sample_moving_sides(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
     let i = item_index(id, groups);
     if i < step.particle_count + step.quad_count {
         let point = point_at(i);

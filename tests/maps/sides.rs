@@ -1,15 +1,13 @@
-//! The maps that the device draws are those that the reference casts, and the surface in them is the body with its thickness.
+//! The papers' maps that the device draws are those that the reference casts, and the surface in them is the body with its thickness.
 
 use glam::{Vec3, vec3};
-use toile_gpu::{Colliders, Plan, Solver};
-use toile_kernels::{Need, TABLE};
-use toile_lab::Layers;
-use toile_lab::fixtures::{body, scene, sheet_model};
+use toile_lab::DrawnMaps;
+use toile_lab::fixtures::body;
 use toile_lab::shapes::without_triangles;
-use toile_model::{MapBox, Model, StepSettings};
+use toile_model::SideBox;
 use toile_reference::ExactDistance;
-use toile_reference::maps::{BodyMaps, Surface, render_maps};
-use toile_scene::{Mesh, Rule, VelocityModification};
+use toile_reference::maps::{SideMaps, Surface, render_sides};
+use toile_scene::{MapKind, Mesh};
 use toile_workspace::gpu;
 
 const TEXEL: f32 = 0.005;
@@ -42,7 +40,7 @@ struct Comparison {
 }
 
 impl Comparison {
-    fn new(device: &BodyMaps, reference: &BodyMaps) -> Self {
+    fn new(device: &SideMaps, reference: &SideMaps) -> Self {
         assert_eq!(device.map_box, reference.map_box);
         let range = device.map_box.z_front - device.map_box.z_back;
         let mut comparison = Self::default();
@@ -91,9 +89,9 @@ fn bodies() -> Vec<(&'static str, Mesh)> {
 fn the_device_draws_what_the_reference_casts() {
     for (name, mesh) in bodies() {
         for texel in [TEXEL, 3.7 * TEXEL] {
-            let layers = Layers::draw(gpu(), &[(&mesh, THICKNESS)], texel).expect("the device answers");
-            let reference = render_maps(&[Surface { mesh: &mesh, thickness: THICKNESS, velocities: None }], texel);
-            let comparison = Comparison::new(&layers.read, &reference);
+            let layers = DrawnMaps::draw(gpu(), MapKind::Sides, &[(&mesh, THICKNESS)], texel).expect("the device answers");
+            let reference = render_sides(&[Surface { mesh: &mesh, thickness: THICKNESS, velocities: None, open: false }], texel);
+            let comparison = Comparison::new(layers.sides(), &reference);
             assert!(comparison.seen > 500 && comparison.agrees(), "{name} at {texel} m: {comparison:?}");
         }
     }
@@ -103,12 +101,12 @@ fn the_device_draws_what_the_reference_casts() {
 fn several_surfaces_share_the_maps() {
     let [ball, block] =
         [Mesh::sphere(vec3(0.0, 0.2, 0.0), 0.2, 24), Mesh::cuboid(vec3(-0.3, 0.0, 0.0), vec3(0.0, 0.2, 0.3))];
-    let layers = Layers::draw(gpu(), &[(&ball, 0.01), (&block, 0.002)], TEXEL).expect("the device answers");
+    let layers = DrawnMaps::draw(gpu(), MapKind::Sides, &[(&ball, 0.01), (&block, 0.002)], TEXEL).expect("the device answers");
     let surfaces = [
-        Surface { mesh: &ball, thickness: 0.01, velocities: None },
-        Surface { mesh: &block, thickness: 0.002, velocities: None },
+        Surface { mesh: &ball, thickness: 0.01, velocities: None, open: false },
+        Surface { mesh: &block, thickness: 0.002, velocities: None, open: false },
     ];
-    let comparison = Comparison::new(&layers.read, &render_maps(&surfaces, TEXEL));
+    let comparison = Comparison::new(layers.sides(), &render_sides(&surfaces, TEXEL));
     assert!(comparison.agrees(), "{comparison:?}");
 }
 
@@ -116,27 +114,27 @@ fn several_surfaces_share_the_maps() {
 #[test]
 fn wrong_maps_are_found() {
     let ball = Mesh::sphere(vec3(0.1, 1.0, 0.0), 0.3, 32);
-    let layers = Layers::draw(gpu(), &[(&ball, THICKNESS)], TEXEL).expect("the device answers");
-    let right = layers.read;
-    let map_box = right.map_box;
-    let thinner = Layers::draw_in(gpu(), &[(&ball, 0.9 * THICKNESS)], map_box).expect("the device answers").read;
-    assert!(!Comparison::new(&right, &thinner).agrees(), "thickness");
+    let layers = DrawnMaps::draw(gpu(), MapKind::Sides, &[(&ball, THICKNESS)], TEXEL).expect("the device answers");
+    let right = layers.sides();
+    let thinner = DrawnMaps::draw_in(gpu(), MapKind::Sides, &[(&ball, 0.9 * THICKNESS)], layers.maps.space().map_box).expect("the device answers");
+    assert!(!Comparison::new(right, thinner.sides()).agrees(), "thickness");
     let mut turned = right.clone();
     turned.normals[0].iter_mut().for_each(|normal| normal.x = -normal.x);
-    assert!(!Comparison::new(&right, &turned).agrees(), "normals");
-    let lying = Layers::draw(gpu(), &[(&Mesh::cuboid(vec3(-0.2, 0.0, -0.1), vec3(0.2, 0.3, 0.3)), 0.0)], TEXEL)
-        .expect("the device answers")
-        .read;
+    assert!(!Comparison::new(right, &turned).agrees(), "normals");
+    let lying = DrawnMaps::draw(gpu(), MapKind::Sides, &[(&Mesh::cuboid(vec3(-0.2, 0.0, -0.1), vec3(0.2, 0.3, 0.3)), 0.0)], TEXEL)
+        .expect("the device answers");
+    let lying = lying.sides();
     let mut swapped = lying.clone();
     swapped.depth.swap(0, 1);
     swapped.normals.swap(0, 1);
-    assert!(!Comparison::new(&lying, &swapped).agrees(), "sides");
+    assert!(!Comparison::new(lying, &swapped).agrees(), "sides");
 }
 
 /// Distances [m] from the true body to the surface in the maps, sorted.
 fn distances(mesh: &Mesh, thickness: f32) -> Vec<f64> {
-    let maps = Layers::draw(gpu(), &[(mesh, thickness)], TEXEL).expect("the device answers").read;
-    let MapBox { origin_x, origin_y, texel, columns, z_front, z_back, .. } = maps.map_box;
+    let maps = DrawnMaps::draw(gpu(), MapKind::Sides, &[(mesh, thickness)], TEXEL).expect("the device answers");
+    let maps = maps.sides();
+    let SideBox { origin_x, origin_y, texel, columns, z_front, z_back, .. } = maps.map_box;
     let exact = ExactDistance::new(mesh);
     let mut distances = Vec::new();
     for (side, sign) in [(0, 1.0), (1, -1.0)] {
@@ -170,48 +168,4 @@ fn the_surface_in_the_maps_keeps_the_thickness_from_the_body() {
     assert!(p1 > 0.85, "1 of 100 texels is nearer than {p1} of the thickness");
     assert!((median - 1.0).abs() < 0.02, "the middle texel is at {median} of the thickness");
     assert!(most < 1.001, "the surface is as far as {most} of the thickness");
-}
-
-fn sheet(rule: Rule) -> (Model, StepSettings) {
-    let mut hang = scene("hang", &[("n", "16")]);
-    hang.settings.velocity_modification = VelocityModification::new(rule);
-    let model = sheet_model(&hang);
-    let settings = StepSettings::new(&hang.settings, &model);
-    (model, settings)
-}
-
-#[test]
-fn without_a_body_nothing_of_the_contacts_exists() {
-    let (model, settings) = sheet(Rule::Predictive);
-    let solver = Solver::new(&gpu().device, &model, &settings, Colliders::default()).expect("it fits the device");
-    let contact = [Need::Body, Need::StillMaps, Need::MovingMaps, Need::Shapes];
-    for kernel in solver.plan().kernels() {
-        let row = TABLE.iter().find(|row| row.kernel == kernel).expect("every kernel has a row");
-        assert!(!contact.contains(&row.need), "{} needs a body", kernel.name());
-    }
-    let names: Vec<&str> = solver.buffer_sizes().map(|(name, _)| name).collect();
-    for name in ["map_box", "midpoints", "probes", "contacts", "ball"] {
-        assert!(!names.contains(&name), "{name} among {names:?}");
-    }
-    let cloth = toile::Cloth::new(&gpu().device, &model, &settings, Default::default()).expect("it fits");
-    assert_eq!(cloth.bytes(), solver.bytes() + cloth.frame().indices.size());
-    assert!(cloth.contacts().is_none());
-}
-
-#[test]
-fn plan_and_bytes_do_not_depend_on_the_triangles_of_the_body() {
-    let (model, settings) = sheet(Rule::Predictive);
-    let map_box = MapBox::around([vec3(-0.4, -0.4, -0.4), vec3(0.4, 0.4, 0.4)], TEXEL);
-    let with = |count: u32| {
-        let mesh = Mesh::sphere(Vec3::ZERO, 0.3, count);
-        let layers = Layers::draw_in(gpu(), &[(&mesh, THICKNESS)], map_box).expect("the device answers");
-        let colliders = toile::Colliders { maps: Some(layers.maps.clone()), shapes: Vec::new() };
-        let cloth = toile::Cloth::new(&gpu().device, &model, &settings, colliders).expect("it fits");
-        (mesh.triangles.len(), cloth.plan().clone(), cloth.bytes(), layers.maps.bytes())
-    };
-    let [coarse, fine]: [(usize, Plan, u64, u64); 2] = [with(8), with(150)];
-    assert!(fine.0 > 100 * coarse.0);
-    assert_eq!(coarse.1, fine.1);
-    assert_eq!((coarse.2, coarse.3), (fine.2, fine.3));
-    assert!(coarse.2 > coarse.3, "the bytes of a simulation hold those of its maps");
 }

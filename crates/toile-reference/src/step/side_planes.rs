@@ -1,6 +1,6 @@
 //! What points see of the surfaces in the maps. W §4.3 and §4.4.
 
-use crate::maps::BodyMaps;
+use crate::maps::SideMaps;
 use crate::{Lag, Probe};
 use glam::{Vec3, vec3};
 use toile_model::StepSettings;
@@ -23,10 +23,10 @@ const WAY_PLACES: f32 = 16.0;
 /// W §4.4, eq. 11 and 12.
 ///
 /// Surfaces with a velocity stand back by it for as long as the step is before the time of the maps. W §4.3.
-pub(super) fn look_at_maps(
+pub(super) fn look_at_sides(
     positions: &[Vec3],
     velocities: &[Vec3],
-    maps: &BodyMaps,
+    maps: &SideMaps,
     lag: Lag,
     settings: &StepSettings,
 ) -> Vec<Probe> {
@@ -72,7 +72,7 @@ impl Place {
 }
 
 struct View<'a> {
-    maps: &'a BodyMaps,
+    maps: &'a SideMaps,
     lag: Lag,
     swept: bool,
 }

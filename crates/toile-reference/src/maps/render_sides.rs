@@ -1,9 +1,9 @@
 //! The maps of a body by casting a ray through every texel's centre. W §4.1 to §4.3.
 
-use super::body_maps::BodyMaps;
+use super::side_maps::SideMaps;
 use glam::{DVec2, Vec3, dvec2};
 use std::ops::RangeInclusive;
-use toile_model::MapBox;
+use toile_model::{MapBox, SideBox};
 use toile_scene::Mesh;
 
 /// A mesh that the maps show.
@@ -15,6 +15,8 @@ pub struct Surface<'a> {
     pub thickness: f32,
     /// Velocities of its vertices [m/s], shape [vertex_count]; `None` at rest.
     pub velocities: Option<&'a [Vec3]>,
+    /// Whether it is open by what it is, as a garment: it bounds no body.
+    pub open: bool,
 }
 
 /// Renders the maps of all surfaces together with texels of the edge length `texel` [m]. W §4.1 and §4.2.
@@ -24,16 +26,22 @@ pub struct Surface<'a> {
 ///
 /// # Panics
 /// When no surface has a vertex.
-pub fn render_maps(surfaces: &[Surface], texel: f32) -> BodyMaps {
+pub fn render_sides(surfaces: &[Surface], texel: f32) -> SideMaps {
+    render_sides_in(surfaces, box_around(surfaces, texel))
+}
+
+/// The box around surfaces that are moved out by their thickness.
+pub(crate) fn box_around(surfaces: &[Surface], texel: f32) -> MapBox {
     let offset: Vec<Vec<Vec3>> = surfaces.iter().map(offset_positions).collect();
-    render_maps_in(surfaces, MapBox::around(bounds(&offset), texel))
+    MapBox::around(bounds(&offset), texel)
 }
 
 /// Renders the maps of all surfaces into a box. They have velocities when a surface has.
-pub fn render_maps_in(surfaces: &[Surface], map_box: MapBox) -> BodyMaps {
+pub fn render_sides_in(surfaces: &[Surface], map_box: MapBox) -> SideMaps {
+    let map_box = SideBox::of(&map_box);
     let count = map_box.columns as usize * map_box.rows as usize;
     let moving = surfaces.iter().any(|surface| surface.velocities.is_some());
-    let mut maps = BodyMaps {
+    let mut maps = SideMaps {
         map_box,
         depth: [vec![1.0; count], vec![1.0; count]],
         normals: [vec![Vec3::ZERO; count], vec![Vec3::ZERO; count]],
@@ -66,7 +74,7 @@ fn bounds(surfaces: &[Vec<Vec3>]) -> [Vec3; 2] {
 }
 
 /// Draws one triangle into both layers.
-fn draw(maps: &mut BodyMaps, corners: [Vec3; 3], normals: [Vec3; 3], velocities: [Vec3; 3]) {
+fn draw(maps: &mut SideMaps, corners: [Vec3; 3], normals: [Vec3; 3], velocities: [Vec3; 3]) {
     let map_box = maps.map_box;
     let [a, b, c] = corners.map(|corner| texel_position(&map_box, corner));
     let area = (b - a).perp_dot(c - a);
@@ -93,7 +101,7 @@ fn draw(maps: &mut BodyMaps, corners: [Vec3; 3], normals: [Vec3; 3], velocities:
 
 /// Position in the maps where texel centres are the whole numbers: x is the column, y the row. In f64, so that two triangles
 /// with a common edge leave no centre between them.
-fn texel_position(map_box: &MapBox, position: Vec3) -> DVec2 {
+fn texel_position(map_box: &SideBox, position: Vec3) -> DVec2 {
     dvec2(
         (f64::from(position.x) - f64::from(map_box.origin_x)) / f64::from(map_box.texel) - 0.5,
         (f64::from(map_box.origin_y) - f64::from(position.y)) / f64::from(map_box.texel) - 0.5,
@@ -111,7 +119,7 @@ fn centres(low: f64, high: f64, count: u32) -> RangeInclusive<u32> {
 
 /// Writes a point of the surface into each layer where it is nearer to the camera than what is there.
 fn plot(
-    maps: &mut BodyMaps,
+    maps: &mut SideMaps,
     texel: usize,
     shares: [f32; 3],
     heights: [f32; 3],
