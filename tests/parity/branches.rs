@@ -388,8 +388,7 @@ fn layers(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usiz
     see("is inside", all().filter(|(_, probe)| probe.hit && probe.distance < -before.settings.thickness).count());
     see("is outside and near", all().filter(|(_, probe)| probe.hit && probe.distance > 0.0).count());
     see("is out of reach", all().filter(|(point, probe)| point.is_finite() && !probe.hit).count());
-    // The sheet lies above the bodies.
-    let by_sheet = |point: Vec3, probe: &Probe| probe.hit && point.y > 0.44 && probe.normal.distance(Vec3::Y) < 1e-3;
+    let by_sheet = |point: Vec3, probe: &Probe| probe.hit && point.y > 0.28 && probe.normal.distance(Vec3::Y) < 1e-6;
     see("is answered by the sheet", all().filter(|(point, probe)| by_sheet(**point, probe)).count());
     let [swept, unswept] =
         [true, false].map(|swept| StepSettings { swept, ..before.settings.clone() }).map(|settings| {

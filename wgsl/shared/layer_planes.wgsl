@@ -19,17 +19,19 @@ const SHEET_DEPTH: f32 = 0.01;
 const SLANT_MIN: f32 = 0.1;
 // Most places on the way of a point that are looked at.
 const WAY_PLACES: f32 = 16.0;
-// Nearness of a layer that is four texels away: what is farther is not seen from outside of all bodies.
-const NEARNESS_MIN: f32 = 1.0 / 6975757441.0;
+// The spread of a layer that is four texels away: what is farther is not seen from outside of all bodies.
+const SPREAD_MAX: f32 = 17.0;
+// The spread of nothing.
+const FAR: f32 = 1e30;
 
-// The weighted sum of planes.
+// The weighted sum of planes, in weights of the nearest.
 struct Planes {
     normal: vec3<f32>,
     distance: f32,
     velocity: vec3<f32>,
     weight: f32,
-    // Largest weight but for the slant: that of the nearest.
-    nearness: f32,
+    // One more than the square of the distance of the nearest [texel²].
+    spread: f32,
 }
 
 // What is seen from a place.
@@ -76,24 +78,40 @@ fn with_plane(
     let velocity = layer_velocity(at);
     let apart = (place - sample) * layer_box.texels_per_metre;
     let spread = dot(apart, apart) + 1.0;
-    let spread2 = spread * spread;
-    let spread4 = spread2 * spread2;
-    let nearness = 1.0 / (spread4 * spread4);
+    var sum = planes;
+    let is_nearer = spread < sum.spread;
+    var part = sum.spread / spread;
+    if is_nearer {
+        part = spread / sum.spread;
+    }
+    let part2 = part * part;
+    let part4 = part2 * part2;
+    let part8 = part4 * part4;
+    if is_nearer {
+        sum.weight = sum.weight * part8;
+        sum.normal = sum.normal * part8;
+        sum.distance = sum.distance * part8;
+        sum.velocity = sum.velocity * part8;
+        sum.spread = spread;
+    }
     let slant = max(abs(place_along(normal, axis)), SLANT_MIN);
     let slant2 = slant * slant;
-    let weight = nearness * (slant2 * slant2);
-    var sum = planes;
+    var weight = slant2 * slant2;
+    if !is_nearer {
+        weight = part8 * weight;
+    }
     sum.weight = sum.weight + weight;
     sum.normal = sum.normal + normal * weight;
     sum.distance = sum.distance + dot(normal, (point + velocity * lag_seconds) - sample) * weight;
     sum.velocity = sum.velocity + velocity * weight;
-    sum.nearness = max(sum.nearness, nearness);
     return sum;
 }
 
 // What is seen from a place, with the distances of `point` when the surfaces stand back by `lag_seconds`.
 fn sight_from(place: vec3<f32>, point: vec3<f32>, lag_seconds: f32) -> Sight {
     var sight = Sight();
+    sight.body.spread = FAR;
+    sight.sheet.spread = FAR;
     let texel = floor(place * layer_box.texels_per_metre);
     let centre = (texel + 0.5) * layer_box.texel;
     for (var axis = 0u; axis < AXIS_COUNT; axis++) {
@@ -162,7 +180,7 @@ fn answer(planes: Planes) -> Probe {
 
 // Velocity of the nearer of body and sheet.
 fn drift_of(sight: Sight) -> vec3<f32> {
-    if sight.sheet.nearness > sight.body.nearness {
+    if sight.sheet.spread < sight.body.spread {
         return sight.sheet.velocity / sight.sheet.weight;
     }
     return sight.body.velocity / sight.body.weight;
@@ -200,13 +218,13 @@ fn look(position: vec3<f32>, velocity: vec3<f32>) -> Probe {
         }
     }
     var probe = Probe();
-    if sight.inside || sight.body.nearness > NEARNESS_MIN {
+    if sight.inside || sight.body.spread < SPREAD_MAX {
         let foot = foot_of(sight.body, place);
         if foot.hit > 0.0 {
             probe = answer(sight_from(foot.place, position, start_lag()).body);
         }
     }
-    if sight.sheet.nearness > NEARNESS_MIN {
+    if sight.sheet.spread < SPREAD_MAX {
         let foot = foot_of(sight.sheet, place);
         if foot.hit > 0.0 {
             let sheet = answer(sight_from(foot.place, position, start_lag()).sheet);

@@ -36,6 +36,9 @@ const MIRROR: Vec3 = vec3(-0.25, -0.5, 0.0);
 /// Edge length of a texel of the maps [m].
 const TEXEL: f32 = 0.031;
 
+/// Heights of the open sheets in the layered maps [m].
+pub const SHEETS: [f32; 2] = [0.3, 0.35];
+
 /// How many of each thing there are.
 struct Counts {
     particles: u32,
@@ -147,6 +150,9 @@ impl Seeds {
         input.copies.positions.fill(Vec3::ZERO);
         input.copies.velocities.fill(Vec3::ZERO);
         place_at_the_edges(random, &mut input);
+        if matches!(kernel, Kernel::SampleLayers | Kernel::SampleMovingLayers) {
+            place_at_the_sheets(random, &mut input);
+        }
         if kernel == Kernel::LongestLimit {
             let status = frame::limit_status(&input.particles.positions, &input.model.limits, input.settings.aim());
             input.status.elongation_max = status.elongation_max.to_bits();
@@ -508,29 +514,30 @@ fn open_particles(random: &mut Random, sewn: u32) -> (Particles, Csr<u32>) {
     (open, Csr::from_rows(rows))
 }
 
-/// Maps of either kind of two bodies, of which the front and the back see different ones, and of an open sheet that both see edge on; at rest
-/// or on their way.
+/// Maps of either kind of two bodies, of which the front and the back see different ones, cut off by the box on every side; at rest or on
+/// their way. The layered ones show two open sheets too, of which one goes through a body.
 fn maps(gpu: &Gpu, moving: bool) -> Result<[DrawnMaps; 2], GpuError> {
     let random = &mut Random::new(7);
     let [ball, block] = bodies();
-    let sheet = Mesh {
-        positions: [[-0.3, -0.3], [0.3, -0.3], [0.3, 0.3], [-0.3, 0.3]].map(|[x, z]| vec3(x, 0.46, z)).to_vec(),
-        normals: vec![Vec3::Y; 4],
-        triangles: vec![[0, 2, 1], [0, 3, 2]],
+    let corners = [[-0.3, -0.3], [0.3, -0.3], [0.3, 0.3], [-0.3, 0.3]];
+    let sheets = Mesh {
+        positions: SHEETS.iter().flat_map(|y| corners.map(|[x, z]| vec3(x, *y, z))).collect(),
+        normals: vec![Vec3::Y; 8],
+        triangles: vec![[0, 2, 1], [0, 3, 2], [4, 6, 5], [4, 7, 6]],
     };
-    let map_box = MapBox::around([vec3(-0.47, -0.47, -0.57), vec3(0.37, 0.42, 0.42)], TEXEL);
-    let surfaces = [&ball, &block, &sheet].map(|mesh| {
+    let map_box = MapBox::around([vec3(-0.4, -0.38, -0.45), vec3(0.28, 0.33, 0.25)], TEXEL);
+    let surfaces = [&ball, &block, &sheets].map(|mesh| {
         let velocities: Vec<Vec4> = mesh.positions.iter().map(|_| random.vector(2.0).extend(0.0)).collect();
         let usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE;
         let velocities = moving.then(|| gpu.upload(bytemuck::cast_slice(&velocities), usage));
         Surface { velocities, ..Surface::new(&gpu.device, mesh, TEXEL) }
     });
-    let [ball, block, sheet] = surfaces;
-    let sheet = Surface { open: true, ..sheet };
+    let [ball, block, sheets] = surfaces;
+    let sheets = Surface { open: true, ..sheets };
     let space = MapSpace { kind: MapKind::Sides, map_box, moving, area: 6.0 };
     let sides = DrawnMaps::draw_surfaces(gpu, &[(&ball, 0.005), (&block, 0.01)], &space)?;
     let space = MapSpace { kind: MapKind::Layers, ..space };
-    let layers = DrawnMaps::draw_surfaces(gpu, &[(&ball, 0.0), (&block, 0.0), (&sheet, 0.0)], &space)?;
+    let layers = DrawnMaps::draw_surfaces(gpu, &[(&ball, 0.0), (&block, 0.0), (&sheets, 0.0)], &space)?;
     Ok([sides, layers])
 }
 
@@ -627,6 +634,14 @@ fn place_at_the_edges(random: &mut Random, input: &mut Input) {
             9 => *position = vec3(MIRROR.x, MIRROR.y, MIRROR.z + random.between(-0.1, 0.1)),
             _ => {}
         }
+    }
+}
+
+/// Moves some points to the open sheets.
+fn place_at_the_sheets(random: &mut Random, input: &mut Input) {
+    for i in (3..input.particle_count()).step_by(9) {
+        input.particles.positions[i].y = SHEETS[random.below(2) as usize] + random.between(-0.03, 0.03);
+        input.particles.velocities[i] *= 0.1;
     }
 }
 

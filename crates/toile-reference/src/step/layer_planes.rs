@@ -31,16 +31,25 @@ pub(super) fn look_at_layers(
     positions.iter().zip(velocities).map(|(&position, &velocity)| view.look(position, velocity)).collect()
 }
 
-/// The weighted sum of planes.
-#[derive(Clone, Copy, Default)]
+/// The weighted sum of planes, in weights of the nearest.
+#[derive(Clone, Copy)]
 struct Planes {
     weight: f32,
     normal: Vec3,
     distance: f32,
     velocity: Vec3,
-    /// Largest weight but for the slant: that of the nearest.
-    nearness: f32,
+    /// One more than the square of the distance of the nearest [texel²].
+    spread: f32,
 }
+
+impl Default for Planes {
+    fn default() -> Self {
+        Self { weight: 0.0, normal: Vec3::ZERO, distance: 0.0, velocity: Vec3::ZERO, spread: FAR }
+    }
+}
+
+/// The spread of nothing.
+const FAR: f32 = 1e30;
 
 /// What is seen from a place.
 #[derive(Clone, Copy, Default)]
@@ -93,9 +102,9 @@ impl View<'_> {
             }
         }
         let body = self.answer(position, place, sight.body, |sight| sight.body);
-        let body = body.filter(|_| sight.inside || sight.body.nearness > NEARNESS_MIN);
+        let body = body.filter(|_| sight.inside || sight.body.spread < SPREAD_MAX);
         let sheet = self.answer(position, place, sight.sheet, |sight| sight.sheet);
-        let sheet = sheet.filter(|probe| sight.sheet.nearness > NEARNESS_MIN && probe.distance > -SHEET_DEPTH);
+        let sheet = sheet.filter(|probe| sight.sheet.spread < SPREAD_MAX && probe.distance > -SHEET_DEPTH);
         match (body, sheet) {
             (Some(body), Some(sheet)) if sheet.distance < body.distance => sheet,
             (Some(body), _) => body,
@@ -144,27 +153,30 @@ impl View<'_> {
         let velocity = self.maps.velocities.as_ref().map_or(Vec3::ZERO, |all| all[layer as usize]);
         let apart = (place - centre) * scale;
         let spread = apart.dot(apart) + 1.0;
-        let spread2 = spread * spread;
-        let spread4 = spread2 * spread2;
-        let nearness = 1.0 / (spread4 * spread4);
+        let nearer = spread < planes.spread;
+        let part = if nearer { spread / planes.spread } else { planes.spread / spread };
+        let part2 = part * part;
+        let part4 = part2 * part2;
+        let part8 = part4 * part4;
+        if nearer {
+            planes.weight *= part8;
+            planes.normal *= part8;
+            planes.distance *= part8;
+            planes.velocity *= part8;
+            planes.spread = spread;
+        }
         let slant = normal[axis].abs().max(SLANT_MIN);
         let slant2 = slant * slant;
-        let weight = nearness * (slant2 * slant2);
+        let weight = if nearer { slant2 * slant2 } else { part8 * (slant2 * slant2) };
         planes.weight += weight;
         planes.normal += normal * weight;
         planes.distance += normal.dot((point + velocity * lag) - centre) * weight;
         planes.velocity += velocity * weight;
-        planes.nearness = planes.nearness.max(nearness);
     }
 }
 
-/// Nearness of a layer at the end of the reach.
-const NEARNESS_MIN: f32 = {
-    let spread = REACH * REACH + 1.0;
-    let spread2 = spread * spread;
-    let spread4 = spread2 * spread2;
-    1.0 / (spread4 * spread4)
-};
+/// The spread of a layer at the end of the reach.
+const SPREAD_MAX: f32 = REACH * REACH + 1.0;
 
 impl Sight {
     fn seen(&self) -> bool {
@@ -173,7 +185,7 @@ impl Sight {
 
     /// Velocity of the nearer of body and sheet [m/s].
     fn drift(&self) -> Vec3 {
-        let nearer = if self.sheet.nearness > self.body.nearness { &self.sheet } else { &self.body };
+        let nearer = if self.sheet.spread < self.body.spread { &self.sheet } else { &self.body };
         nearer.velocity / nearer.weight
     }
 }

@@ -21,6 +21,7 @@ fn plate() -> BodyMaps {
 fn slide(maps: &BodyMaps, degrees: f32, law: Friction) -> (f32, f32, f32) {
     let (sin, cos) = degrees.to_radians().sin_cos();
     let settings = StepSettings {
+        thickness: 0.0,
         gravity: vec3(sin, 0.0, -cos) * GRAVITY,
         law,
         friction: FRICTION,
@@ -90,7 +91,8 @@ fn the_papers_law_never_sticks() {
 /// Velocity of the cloth after it met the plate at 1 m/s, 2 m/s along it.
 fn pressed(pressing: f32, sweeps: u32) -> Vec3 {
     let maps = plate();
-    let settings = StepSettings { gravity: Vec3::ZERO, friction: FRICTION, pressing, sweeps, ..settings() };
+    let settings =
+        StepSettings { thickness: 0.0, gravity: Vec3::ZERO, friction: FRICTION, pressing, sweeps, ..settings() };
     let model = Grid { down: Vec3::Y, ..Grid::horizontal(2, 0.02) }.model();
     let mut particles = toile_reference::Particles::new(&model);
     particles.positions.iter_mut().for_each(|position| position.z = 0.0);
@@ -117,7 +119,8 @@ fn friction_counts_a_pressure_up_to_its_bound() {
 #[test]
 fn a_rebound_gives_back_its_part_of_the_approach() {
     let maps = plate();
-    let settings = StepSettings { gravity: Vec3::ZERO, reflection: 0.5, friction: 0.0, ..settings() };
+    let settings =
+        StepSettings { thickness: 0.0, gravity: Vec3::ZERO, reflection: 0.5, friction: 0.0, ..settings() };
     let mut model = Grid { down: Vec3::Y, ..Grid::horizontal(2, 0.02) }.model();
     for position in &mut model.positions {
         position.z = 0.0005;
@@ -154,7 +157,7 @@ fn a_colliding_midpoint_stops_its_corners_and_pushes_none_away() {
 #[test]
 fn the_nearer_side_of_the_plate_answers() {
     let maps = plate();
-    let settings = settings();
+    let settings = StepSettings { thickness: 0.0, ..settings() };
     // Farther out than the reach of four texels of the plate's maps nothing answers.
     let points = [-0.01, -0.09, 0.1, -0.2].map(|z| vec3(0.203, 0.104, z));
     let probes = step::sample_body_maps(&points, &[Vec3::ZERO; 4], &maps, Lag::default(), &settings);
@@ -284,7 +287,8 @@ fn maps_are_read_where_they_were_drawn() {
     let maps = BodyMaps::around(MapKind::Layers, &[Surface { mesh: &mesh, thickness: 0.0, velocities: None, open: false }], 0.01);
     let points = [vec3(0.12, 0.33, 0.05), vec3(0.18, 0.48, 0.05), vec3(0.12, 0.28, 0.05), vec3(0.08, 0.48, 0.05)];
     let probes = step::sample_body_maps(&points, &[Vec3::ZERO; 4], &maps, Lag::default(), &settings());
-    assert_eq!(probes.iter().map(|probe| probe.hit).collect::<Vec<_>>(), [true, true, false, false]);
+    let inside = |probe: &Probe| probe.hit && probe.distance < -settings().thickness;
+    assert_eq!(probes.iter().map(inside).collect::<Vec<_>>(), [true, true, false, false]);
 }
 
 #[test]

@@ -110,7 +110,8 @@ fn the_nearest_surface_is_seen_whatever_the_order() {
     let turned = render_sides(&[surfaces[1], surfaces[0]], 0.01);
     assert_eq!(maps, turned);
     let texel = 10 * maps.map_box.columns as usize + 10;
-    assert!(maps.depth[0][texel] < 0.01 && maps.depth[1][texel] < 0.01);
+    // A tenth of the box lies before each.
+    assert!(maps.depth[0][texel] < 0.1 && maps.depth[1][texel] < 0.1);
 }
 
 #[test]

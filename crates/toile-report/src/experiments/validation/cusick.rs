@@ -60,7 +60,7 @@ pub fn drape(seed: u64, fabric: Fabric, spacing: f64, seconds: f64) -> Result<Dr
     }
     let step = StepSettings::new(&settings, &model);
     let disc = cylinder(SUPPORT as f32, 0.3, 64);
-    let surface = Surface { mesh: &disc, thickness, velocities: None, open: true };
+    let surface = Surface { mesh: &disc, thickness, velocities: None, open: false };
     let maps = BodyMaps::around(settings.maps, &[surface], settings.texel as f32);
     let colliders = Colliders { maps: Some(maps), shapes: Vec::new() };
     let frames = (seconds * settings.frame_rate).round() as u32;
