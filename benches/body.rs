@@ -70,7 +70,12 @@ fn measure(bench: &Bench, body: &Mesh, kind: MapKind) {
         run(bench, |encoder| cloth.record(&bench.device, encoder));
     }
     let cost = bench.step_cost(&mut cloth, STEPS);
-    let sampling = cost.kernels.iter().find(|(name, ..)| ["sample_sides", "sample_layers"].contains(name)).expect("a body has maps").2;
+    let sampling = cost
+        .kernels
+        .iter()
+        .find(|(name, ..)| ["sample_sides", "sample_layers"].contains(name))
+        .expect("a body has maps")
+        .2;
     println!(
         "{:>10} {:>12.1} {:>14.2} {:>18.1} {:>14.1}",
         body.triangles.len(),

@@ -3,8 +3,8 @@
 use glam::{DVec3, Vec3};
 use toile::{Cloth, Colliders};
 use toile_gpu::Solver;
-use toile_lab::{DrawnMaps, read_maps};
 use toile_lab::fixtures::{garment, settings};
+use toile_lab::{DrawnMaps, read_maps};
 use toile_model::{Merge, Model, StepSettings};
 use toile_scene::{MapKind, Mesh};
 use toile_workspace::{advance, arrived, finish_frame, gpu};

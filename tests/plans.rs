@@ -10,7 +10,11 @@ use toile_model::{Model, StepSettings};
 use toile_scene::{Body, Polish, Rule, Scene, Settings, Wind};
 
 fn plan(model: &Model, settings: &StepSettings, bodies: &[Body]) -> Plan {
-    let maps = if bodies.iter().any(|body| matches!(body, Body::Mesh(_))) { Maps::Layers { moving: false } } else { Maps::None };
+    let maps = if bodies.iter().any(|body| matches!(body, Body::Mesh(_))) {
+        Maps::Layers { moving: false }
+    } else {
+        Maps::None
+    };
     let shapes = bodies.iter().any(|body| matches!(body, Body::Shape(_)));
     Plan::new(model, settings, maps, shapes)
 }

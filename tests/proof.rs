@@ -114,7 +114,8 @@ fn the_life_of_the_comparison_is_that_of_the_reference() {
     let collision = image(&ball);
     let Collision::Image(maps) = collision.clone() else { panic!("maps") };
     let mut life = Life::new(&model, &step, &collision);
-    let mut reference = Reference::new(&model, &step, Colliders { maps: Some(BodyMaps::Sides(maps)), shapes: Vec::new() });
+    let mut reference =
+        Reference::new(&model, &step, Colliders { maps: Some(BodyMaps::Sides(maps)), shapes: Vec::new() });
     for _ in 0..100 {
         life.step();
         reference.step();

@@ -24,7 +24,8 @@ fn sheet(rule: Rule) -> (Model, StepSettings) {
 fn without_a_body_nothing_of_the_contacts_exists() {
     let (model, settings) = sheet(Rule::Predictive);
     let solver = Solver::new(&gpu().device, &model, &settings, Colliders::default()).expect("it fits the device");
-    let contact = [Need::Body, Need::StillSides, Need::MovingSides, Need::StillLayers, Need::MovingLayers, Need::Shapes];
+    let contact =
+        [Need::Body, Need::StillSides, Need::MovingSides, Need::StillLayers, Need::MovingLayers, Need::Shapes];
     for kernel in solver.plan().kernels() {
         let row = TABLE.iter().find(|row| row.kernel == kernel).expect("every kernel has a row");
         assert!(!contact.contains(&row.need), "{} needs a body", kernel.name());
@@ -44,7 +45,8 @@ fn plan_and_bytes_do_not_depend_on_the_triangles_of_the_body() {
     let map_box = MapBox::around([vec3(-0.4, -0.4, -0.4), vec3(0.4, 0.4, 0.4)], TEXEL);
     let with = |count: u32| {
         let mesh = Mesh::sphere(Vec3::ZERO, 0.3, count);
-        let layers = DrawnMaps::draw_in(gpu(), MapKind::Sides, &[(&mesh, THICKNESS)], map_box).expect("the device answers");
+        let layers =
+            DrawnMaps::draw_in(gpu(), MapKind::Sides, &[(&mesh, THICKNESS)], map_box).expect("the device answers");
         let colliders = toile::Colliders { maps: Some(layers.maps.clone()), shapes: Vec::new() };
         let cloth = toile::Cloth::new(&gpu().device, &model, &settings, colliders).expect("it fits");
         (mesh.triangles.len(), cloth.plan().clone(), cloth.bytes(), layers.maps.bytes())

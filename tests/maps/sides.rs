@@ -89,8 +89,10 @@ fn bodies() -> Vec<(&'static str, Mesh)> {
 fn the_device_draws_what_the_reference_casts() {
     for (name, mesh) in bodies() {
         for texel in [TEXEL, 3.7 * TEXEL] {
-            let layers = DrawnMaps::draw(gpu(), MapKind::Sides, &[(&mesh, THICKNESS)], texel).expect("the device answers");
-            let reference = render_sides(&[Surface { mesh: &mesh, thickness: THICKNESS, velocities: None, open: false }], texel);
+            let layers =
+                DrawnMaps::draw(gpu(), MapKind::Sides, &[(&mesh, THICKNESS)], texel).expect("the device answers");
+            let reference =
+                render_sides(&[Surface { mesh: &mesh, thickness: THICKNESS, velocities: None, open: false }], texel);
             let comparison = Comparison::new(layers.sides(), &reference);
             assert!(comparison.seen > 500 && comparison.agrees(), "{name} at {texel} m: {comparison:?}");
         }
@@ -101,7 +103,8 @@ fn the_device_draws_what_the_reference_casts() {
 fn several_surfaces_share_the_maps() {
     let [ball, block] =
         [Mesh::sphere(vec3(0.0, 0.2, 0.0), 0.2, 24), Mesh::cuboid(vec3(-0.3, 0.0, 0.0), vec3(0.0, 0.2, 0.3))];
-    let layers = DrawnMaps::draw(gpu(), MapKind::Sides, &[(&ball, 0.01), (&block, 0.002)], TEXEL).expect("the device answers");
+    let layers =
+        DrawnMaps::draw(gpu(), MapKind::Sides, &[(&ball, 0.01), (&block, 0.002)], TEXEL).expect("the device answers");
     let surfaces = [
         Surface { mesh: &ball, thickness: 0.01, velocities: None, open: false },
         Surface { mesh: &block, thickness: 0.002, velocities: None, open: false },
@@ -116,13 +119,19 @@ fn wrong_maps_are_found() {
     let ball = Mesh::sphere(vec3(0.1, 1.0, 0.0), 0.3, 32);
     let layers = DrawnMaps::draw(gpu(), MapKind::Sides, &[(&ball, THICKNESS)], TEXEL).expect("the device answers");
     let right = layers.sides();
-    let thinner = DrawnMaps::draw_in(gpu(), MapKind::Sides, &[(&ball, 0.9 * THICKNESS)], layers.maps.space().map_box).expect("the device answers");
+    let thinner = DrawnMaps::draw_in(gpu(), MapKind::Sides, &[(&ball, 0.9 * THICKNESS)], layers.maps.space().map_box)
+        .expect("the device answers");
     assert!(!Comparison::new(right, thinner.sides()).agrees(), "thickness");
     let mut turned = right.clone();
     turned.normals[0].iter_mut().for_each(|normal| normal.x = -normal.x);
     assert!(!Comparison::new(right, &turned).agrees(), "normals");
-    let lying = DrawnMaps::draw(gpu(), MapKind::Sides, &[(&Mesh::cuboid(vec3(-0.2, 0.0, -0.1), vec3(0.2, 0.3, 0.3)), 0.0)], TEXEL)
-        .expect("the device answers");
+    let lying = DrawnMaps::draw(
+        gpu(),
+        MapKind::Sides,
+        &[(&Mesh::cuboid(vec3(-0.2, 0.0, -0.1), vec3(0.2, 0.3, 0.3)), 0.0)],
+        TEXEL,
+    )
+    .expect("the device answers");
     let lying = lying.sides();
     let mut swapped = lying.clone();
     swapped.depth.swap(0, 1);

@@ -390,10 +390,9 @@ fn layers(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usiz
     see("is out of reach", all().filter(|(point, probe)| point.is_finite() && !probe.hit).count());
     let by_sheet = |point: Vec3, probe: &Probe| probe.hit && point.y > 0.28 && probe.normal.distance(Vec3::Y) < 1e-6;
     see("is answered by the sheet", all().filter(|(point, probe)| by_sheet(**point, probe)).count());
-    let [swept, unswept] =
-        [true, false].map(|swept| StepSettings { swept, ..before.settings.clone() }).map(|settings| {
-            toile_reference::step::sample_moving_layers(&points, &velocities, maps, before.lag, &settings)
-        });
+    let [swept, unswept] = [true, false]
+        .map(|swept| StepSettings { swept, ..before.settings.clone() })
+        .map(|settings| toile_reference::step::sample_moving_layers(&points, &velocities, maps, before.lag, &settings));
     let differs = swept.iter().zip(&unswept).filter(|(a, b)| a != b && a.distance.is_finite()).count();
     see("is answered where it enters", differs);
 }

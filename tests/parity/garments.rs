@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use toile_lab::DrawnMaps;
 use toile_lab::fixtures::{body, garment, settings};
 use toile_model::{Model, StepSettings};
-use toile_scene::{MapKind, Fabric, Settings};
+use toile_scene::{Fabric, MapKind, Settings};
 use toile_workspace::gpu;
 
 const SPACING: f64 = 0.03;

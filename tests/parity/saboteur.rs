@@ -213,7 +213,11 @@ fn every_mistake_is_found() {
         assert!(count >= least, "only {count} mistakes of the kind {kind:?} were made");
     }
     let missed: Vec<_> = found.iter().filter(|(_, found)| !**found).map(|(mutant, _)| mutant).collect();
-    assert!(missed.is_empty(), "nothing sees\n{}", missed.iter().map(|m| format!("{:?} {}", m.kind, m.wrong)).collect::<Vec<_>>().join("\n"));
+    assert!(
+        missed.is_empty(),
+        "nothing sees\n{}",
+        missed.iter().map(|m| format!("{:?} {}", m.kind, m.wrong)).collect::<Vec<_>>().join("\n")
+    );
     let idle: Vec<_> = SPARED.iter().flat_map(|(_, _, parts)| *parts).filter(|part| !spared.contains(*part)).collect();
     assert!(idle.is_empty(), "these spare nothing any more: {idle:#?}");
 }

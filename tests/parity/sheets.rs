@@ -6,7 +6,7 @@ use toile_lab::DrawnMaps;
 use toile_lab::fixtures::{scene, shapes, sheet_model};
 use toile_lab::kernels::{first_difference, vec3_words};
 use toile_model::StepSettings;
-use toile_scene::{MapKind, Friction, Mesh, Polish, Rule, VelocityModification, Wind};
+use toile_scene::{Friction, MapKind, Mesh, Polish, Rule, VelocityModification, Wind};
 use toile_workspace::{arrived, finish_frame, gpu};
 
 #[test]
@@ -92,7 +92,8 @@ fn a_sheet_on_maps_and_a_sphere_together_agrees() {
     let model = sheet_model(&ball);
     let settings = StepSettings::new(&ball.settings, &model);
     let body = Mesh::sphere(glam::vec3(0.2, 0.05, 0.0), 0.2, 24);
-    let layers = DrawnMaps::draw(gpu(), MapKind::Layers, &[(&body, settings.thickness)], 0.01).expect("the device answers");
+    let layers =
+        DrawnMaps::draw(gpu(), MapKind::Layers, &[(&body, settings.thickness)], 0.01).expect("the device answers");
     let mut life = Life::new(&model, &settings, Some(&layers), shapes(&ball));
     life.agree("a sphere and maps", 15);
     assert!(life.contacts_max > 4, "{} contacts", life.contacts_max);

@@ -19,6 +19,8 @@ const SHEET_DEPTH: f32 = 0.01;
 const SLANT_MIN: f32 = 0.1;
 // Most places on the way of a point that are looked at.
 const WAY_PLACES: f32 = 16.0;
+// How often the part of a way in which a point enters is halved.
+const HALVINGS: u32 = 4u;
 // The spread of a layer that is four texels away: what is farther is not seen from outside of all bodies.
 const SPREAD_MAX: f32 = 17.0;
 // The spread of nothing.
@@ -213,6 +215,21 @@ fn look(position: vec3<f32>, velocity: vec3<f32>) -> Probe {
             if there.inside {
                 place = next;
                 sight = there;
+                // Deeper, another side than that of the entry may be nearer.
+                var outside = (k - 1.0) / places;
+                var inside = k / places;
+                for (var halving = 0u; halving < HALVINGS; halving++) {
+                    let part = 0.5 * (outside + inside);
+                    let middle = start + way * part;
+                    let halfway = sight_from(middle, middle, 0.0);
+                    if halfway.inside {
+                        inside = part;
+                        place = middle;
+                        sight = halfway;
+                    } else {
+                        outside = part;
+                    }
+                }
                 break;
             }
         }

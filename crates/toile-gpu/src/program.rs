@@ -93,11 +93,8 @@ fn constants(kernel: Kernel, device_type: wgpu::DeviceType) -> &'static [(&'stat
 fn layout_entry(binding: &Binding) -> wgpu::BindGroupLayoutEntry {
     let buffer =
         |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: binding.has_entries(), min_binding_size: None };
-    let texture = |sample_type, view_dimension| wgpu::BindingType::Texture {
-        sample_type,
-        view_dimension,
-        multisampled: false,
-    };
+    let texture =
+        |sample_type, view_dimension| wgpu::BindingType::Texture { sample_type, view_dimension, multisampled: false };
     let layered = wgpu::TextureViewDimension::D2Array;
     let flat = wgpu::TextureViewDimension::D2;
     let floats = wgpu::TextureSampleType::Float { filterable: false };

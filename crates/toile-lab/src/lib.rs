@@ -17,9 +17,9 @@ mod settle;
 pub mod shapes;
 
 pub use distance::Distance;
+pub use drawn_maps::{DrawnMaps, read_maps};
 pub use gpu::{Gpu, INSTALL_HINT};
 pub use lab::{Lab, LabError, Progress, Scale};
-pub use drawn_maps::{DrawnMaps, read_maps};
 pub use network::Network;
 pub use random::Random;
 pub use run::{Run, StepCost};

@@ -13,8 +13,6 @@ use toile_gpu::{BodyMaps, MapSpace, Surface};
 use toile_model::{Dressing, DressingStage, MapBox, Model, Piece, StepSettings};
 use toile_scene::{Body, Mesh, MovingMesh, Scene, Settings};
 
-/// How much larger than its pattern cloth may be [1].
-const STRETCHED_AREA: f64 = 1.5;
 /// Time that garments have to hang quietly once the body has gone over to the start of its motion [s].
 const WAITING_SECONDS: f64 = 0.5;
 
@@ -296,7 +294,8 @@ impl Simulation {
     ) -> Result<Option<Arc<BodyMaps>>, Error> {
         let meshes = self.dressing_meshes();
         let Some(map_box) = self.still_box(&meshes, garment_bounds) else { return Ok(None) };
-        let area = meshes.iter().map(|mesh| mesh.area()).sum::<f64>() + self.cloth_area();
+        let dressed = self.pieces.iter().filter(|piece| piece.open.is_some());
+        let area = meshes.iter().map(|mesh| mesh.area()).sum::<f64>() + self.inner_area(dressed, garments.len());
         let maps = BodyMaps::new(&self.device, &MapSpace { kind: self.settings.maps, map_box, moving: false, area })?;
         let surface = |mesh: &&Mesh| Surface::new(&self.device, mesh, map_box.texel);
         let mut surfaces: Vec<Surface> = meshes.iter().map(surface).collect();
@@ -315,10 +314,14 @@ impl Simulation {
         Some(MapBox::around(thick.reduce(around_both)?, self.settings.texel as f32))
     }
 
-    /// Largest area of all cloths together [m²].
-    fn cloth_area(&self) -> f64 {
-        let mass: f32 = self.pieces.iter().flat_map(|piece| &piece.model.masses).sum();
-        STRETCHED_AREA * f64::from(mass) / self.settings.fabric.areal_density
+    /// Largest area of what lies under the outermost of some cloths [m²].
+    fn inner_area<'a>(&self, pieces: impl Iterator<Item = &'a Piece>, count: usize) -> f64 {
+        pieces.take(count).map(|piece| piece.model.area_max(self.settings.fabric.areal_density)).sum()
+    }
+
+    /// Largest area of all cloths but the outermost [m²].
+    fn under_all(&self) -> f64 {
+        self.inner_area(self.pieces.iter(), self.pieces.len().saturating_sub(1))
     }
 
     fn thickness(&self) -> f32 {
@@ -403,7 +406,9 @@ impl Simulation {
             Phase::Dressing(dressed) => dressed.done.last().map(|done| &done.cloth),
             Phase::Together { outfit, .. } => outfit.cloths().next(),
         };
-        let area = boxes.as_ref().map_or(0.0, Boxes::area) + bodies.still.iter().map(Mesh::area).sum::<f64>() + self.cloth_area();
+        let area = boxes.as_ref().map_or(0.0, Boxes::area)
+            + bodies.still.iter().map(Mesh::area).sum::<f64>()
+            + self.under_all();
         let maps = MapPlan { kind: self.settings.maps, boxes, still_box, area };
         Outfit::new(&self.device, &bodies, &cloths, maps, rate, alike)
     }
@@ -429,7 +434,7 @@ impl Simulation {
             return Err(Error::Round { duration: body.duration(), interval });
         };
         self.keeps_maps = true;
-        let area = boxes.area() + self.cloth_area();
+        let area = boxes.area() + self.under_all();
         let space = MapSpace { kind: self.settings.maps, map_box: boxes.at(0.0), moving: true, area };
         Ok(u64::from(count) * space.bytes())
     }

@@ -85,6 +85,7 @@ fn plans(scene: &Scene, patterns: &[Pattern]) -> Result<Vec<ClothPlan>> {
     let shapes = shapes(scene);
     let mut bounds = bounds(scene);
     let mut plans = Vec::new();
+    let mut area = 0.0;
     for Pattern { name, open, sewn, .. } in patterns {
         let step = |model| StepSettings::of_cloth(name, &scene.settings, model);
         // As a garment is dressed: sewn, then draped.
@@ -95,21 +96,18 @@ fn plans(scene: &Scene, patterns: &[Pattern]) -> Result<Vec<ClothPlan>> {
         // Sheets run with all else; a garment is dressed on bodies that stand still.
         let moves =
             sewn.is_none() && (patterns.len() > 1 || scene.bodies.iter().any(|body| matches!(body, Body::Moving(_))));
-        let maps = if bounds.is_none() {
-            Maps::None
-        } else {
-            Maps::of(scene.settings.maps, moves)
-        };
+        let maps = if bounds.is_none() { Maps::None } else { Maps::of(scene.settings.maps, moves) };
         let space = |bounds| MapSpace {
             kind: scene.settings.maps,
             map_box: MapBox::around(bounds, scene.settings.texel as f32),
             moving: moves,
-            area: meshes(scene).map(Mesh::area).sum(),
+            area: area + meshes(scene).map(Mesh::area).sum::<f64>(),
         };
         let map_bytes = bounds.map_or(0, |bounds| space(bounds).bytes());
         for (state, model, settings) in &models {
             plans.push(ClothPlan::new(name, state, model, settings, maps, &shapes, map_bytes));
         }
+        area += sewn.as_ref().unwrap_or(open).area_max(scene.settings.fabric.areal_density);
         // A later cloth lies over this one. Where it will hang is not known; near the body it changes little.
         bounds = bounds.or_else(|| around(models.iter().flat_map(|(_, model, _)| &model.positions)));
     }

@@ -281,7 +281,7 @@ fn a_sheet_runs_over_bodies_of_every_kind() {
     let names: Vec<_> = list(&root["meshes"]).iter().map(|mesh| &mesh["name"]).collect();
     assert_eq!(names, ["body", "sphere", "sphere", "capsule", "plane", "sheet"]);
     let plan = good(journey.run(&["plan", "all.toml"]));
-    assert!(plan.contains("sample_moving_sides") && plan.contains("sample_shapes"), "{plan}");
+    assert!(plan.contains("sample_moving_layers") && plan.contains("sample_shapes"), "{plan}");
 }
 
 /// The signal is sent once the program listens, which the kernel tells.

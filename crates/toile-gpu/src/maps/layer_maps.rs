@@ -245,10 +245,8 @@ impl LayerMaps {
         surfaces: impl IntoIterator<Item = &'a Surface>,
     ) {
         let mut drawn = self.drawn.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-            label: Some("layered maps"),
-            timestamp_writes: None,
-        });
+        let mut compute = encoder
+            .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("layered maps"), timestamp_writes: None });
         compute.set_pipeline(self.draw.1.pipeline());
         for surface in surfaces {
             let first_triangle = self.triangle_count.fetch_add(surface.index_count / 3, Ordering::Relaxed);

@@ -144,7 +144,12 @@ impl SideMaps {
     ///
     /// # Panics
     /// When a surface in maps of moving bodies has no velocities.
-    pub(crate) fn record_over(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, surfaces: &[(&Surface, f32)]) {
+    pub(crate) fn record_over(
+        &self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        surfaces: &[(&Surface, f32)],
+    ) {
         self.draw(device, encoder, surfaces, false);
     }
 
@@ -176,7 +181,8 @@ impl SideMaps {
         let size = [self.size.width, self.size.height];
         assert_eq!(map_box.size[..2], size, "the box has the size of the maps");
         // A buffer of its own, not a queue write: the caller may record several frames before submitting any.
-        let upload = create(device, "side_box upload", &uniform(&SideBox::of(&map_box).encode()), wgpu::BufferUsages::COPY_SRC);
+        let upload =
+            create(device, "side_box upload", &uniform(&SideBox::of(&map_box).encode()), wgpu::BufferUsages::COPY_SRC);
         encoder.copy_buffer_to_buffer(&upload, 0, &self.box_uniform, 0, upload.size());
     }
 

@@ -29,7 +29,8 @@ impl Surface {
     /// Uploads a mesh at rest, for texels of the edge length `texel` [m].
     pub fn new(device: &wgpu::Device, mesh: &Mesh, texel: f32) -> Self {
         let usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE;
-        let vertices = |label, values: &[glam::Vec3]| create(device, label, bytemuck::cast_slice(&padded(values)), usage);
+        let vertices =
+            |label, values: &[glam::Vec3]| create(device, label, bytemuck::cast_slice(&padded(values)), usage);
         Self {
             positions: vertices("surface positions", &mesh.positions),
             normals: vertices("surface normals", &mesh.normals),

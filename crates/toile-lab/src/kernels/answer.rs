@@ -57,7 +57,8 @@ pub fn answer(kernel: Kernel, input: &mut Input) {
         }
         Kernel::SampleMovingSides => {
             let [positions, velocities] = before.points();
-            input.probes = step::sample_moving_sides(&positions, &velocities, before.sides.sides(), before.lag, settings);
+            input.probes =
+                step::sample_moving_sides(&positions, &velocities, before.sides.sides(), before.lag, settings);
         }
         Kernel::MorphBody => {
             let body = &mut input.body;

@@ -8,7 +8,9 @@ use toile::model::{
     Attachment, Csr, Hold, Limit, Link, MapBox, Model, NO_CORNER, STRAND_PARTICLES_MAX, SeamPair, ShapeKind, ShapeStep,
     StepSettings, Strand,
 };
-use toile::scene::{Displacement, Fabric, Friction, Influence, MapKind, Mesh, Morphs, Polish, Pose, Settings, Skin, Wind};
+use toile::scene::{
+    Displacement, Fabric, Friction, Influence, MapKind, Mesh, Morphs, Polish, Pose, Settings, Skin, Wind,
+};
 use toile_kernels::{Domain, Kernel, TABLE};
 use toile_reference::step::PolishState;
 use toile_reference::{Contact, Lag, Midpoints, Particles, Probe, frame};

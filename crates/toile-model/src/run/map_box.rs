@@ -1,6 +1,10 @@
 //! Where the maps of a body stand in the world.
 
+use crate::Model;
 use glam::Vec3;
+
+/// How much larger than its pattern cloth may be [1].
+const STRETCHED_AREA: f64 = 1.5;
 
 /// Where the maps of a body stand in the world: a box of whole texels, whose borders lie on whole texels of the world, so that what
 /// stands still keeps its texels. W §4.
@@ -57,6 +61,13 @@ impl MapBox {
     pub fn texel_counts(&self) -> [u64; 3] {
         let [x, y, z] = self.size.map(u64::from);
         [y * z, z * x, x * y]
+    }
+}
+
+impl Model {
+    /// Largest area for which maps of the cloth make room [m²], from its areal density [kg/m²].
+    pub fn area_max(&self, areal_density: f64) -> f64 {
+        STRETCHED_AREA * self.masses.iter().map(|mass| f64::from(*mass)).sum::<f64>() / areal_density
     }
 }
 

@@ -13,6 +13,8 @@ const SHEET_DEPTH: f32 = 0.01;
 const SLANT_MIN: f32 = 0.1;
 /// Most places on the way of a point that are looked at.
 const WAY_PLACES: f32 = 16.0;
+/// How often the part of a way in which a point enters is halved.
+const HALVINGS: u32 = 4;
 
 /// The surface that each point meets in the coming move, or none. All arrays have the shape [point_count].
 ///
@@ -94,8 +96,20 @@ impl View<'_> {
                 let next = start + way * (k / places);
                 let there = self.sight(next, next, 0.0);
                 if there.inside {
-                    place = next;
-                    sight = there;
+                    (place, sight) = (next, there);
+                    // Deeper, another side than that of the entry may be nearer.
+                    let mut outside = (k - 1.0) / places;
+                    let mut inside = k / places;
+                    for _ in 0..HALVINGS {
+                        let part = 0.5 * (outside + inside);
+                        let middle = start + way * part;
+                        let there = self.sight(middle, middle, 0.0);
+                        if there.inside {
+                            (inside, place, sight) = (part, middle, there);
+                        } else {
+                            outside = part;
+                        }
+                    }
                     break;
                 }
                 k += 1.0;

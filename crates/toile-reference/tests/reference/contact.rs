@@ -119,8 +119,7 @@ fn friction_counts_a_pressure_up_to_its_bound() {
 #[test]
 fn a_rebound_gives_back_its_part_of_the_approach() {
     let maps = plate();
-    let settings =
-        StepSettings { thickness: 0.0, gravity: Vec3::ZERO, reflection: 0.5, friction: 0.0, ..settings() };
+    let settings = StepSettings { thickness: 0.0, gravity: Vec3::ZERO, reflection: 0.5, friction: 0.0, ..settings() };
     let mut model = Grid { down: Vec3::Y, ..Grid::horizontal(2, 0.02) }.model();
     for position in &mut model.positions {
         position.z = 0.0005;
@@ -284,7 +283,11 @@ fn a_sheet_that_falls_on_a_plane_that_swings_stays_above_it() {
 #[test]
 fn maps_are_read_where_they_were_drawn() {
     let mesh = Mesh::cuboid(vec3(0.1, 0.3, 0.0), vec3(0.2, 0.5, 0.1));
-    let maps = BodyMaps::around(MapKind::Layers, &[Surface { mesh: &mesh, thickness: 0.0, velocities: None, open: false }], 0.01);
+    let maps = BodyMaps::around(
+        MapKind::Layers,
+        &[Surface { mesh: &mesh, thickness: 0.0, velocities: None, open: false }],
+        0.01,
+    );
     let points = [vec3(0.12, 0.33, 0.05), vec3(0.18, 0.48, 0.05), vec3(0.12, 0.28, 0.05), vec3(0.08, 0.48, 0.05)];
     let probes = step::sample_body_maps(&points, &[Vec3::ZERO; 4], &maps, Lag::default(), &settings());
     let inside = |probe: &Probe| probe.hit && probe.distance < -settings().thickness;

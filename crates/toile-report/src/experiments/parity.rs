@@ -106,10 +106,9 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
     }
     let words: u64 = total.iter().sum();
     let lead = match first {
-        None => format!(
-            "All {} kernels agree with the reference in all bits of {words} words on this adapter.",
-            rows.len()
-        ),
+        None => {
+            format!("All {} kernels agree with the reference in all bits of {words} words on this adapter.", rows.len())
+        }
         Some(name) => format!(
             "The first kernel of the algorithm that differs from the reference on this adapter is {name}. {} of {words} words agree in all bits.",
             total[0]

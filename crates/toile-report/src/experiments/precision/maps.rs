@@ -181,7 +181,8 @@ fn draw(body: &Mesh, probing: Probing, thickness: f64) -> SideMaps {
     let map_box = MapBox::around([low - room, high + room], texel);
     let by_normals = probing.offset == Offset::Normals;
     let along_normals = if by_normals { thickness as f32 } else { 0.0 };
-    let mut maps = render_sides_in(&[Surface { mesh: body, thickness: along_normals, velocities: None, open: false }], map_box);
+    let mut maps =
+        render_sides_in(&[Surface { mesh: body, thickness: along_normals, velocities: None, open: false }], map_box);
     if !by_normals {
         add_layers(&mut maps, thickness);
     }

@@ -4,7 +4,7 @@ use crate::page::{Block, Cell, Table};
 use glam::{DQuat, DVec2, DVec3, Vec3};
 use std::f64::consts::PI;
 use toile::model::{Model, StepSettings};
-use toile::scene::{Curve, Edge, Fabric, Garment, Mesh, Panel, Placement, Settings};
+use toile::scene::{Curve, Edge, Fabric, Garment, MapKind, Mesh, Panel, Placement, Settings};
 use toile_lab::shapes::cylinder;
 use toile_lab::{Lab, LabError, Random, settled};
 use toile_reference::Colliders;
@@ -39,7 +39,8 @@ pub struct Drape {
 /// Lays a round sample of 30 cm centrally on a disc of 18 cm, clamps it there with another disc, lets the rim fall for `seconds` and
 /// takes the area of its shadow, as the coefficient (shadow − support)/(sample − support).
 ///
-/// The disc faces the front camera, with gravity along −z: maps do not see what both cameras look along.
+/// The disc faces the front camera of the papers' maps, with gravity along −z: they see it well, and layered maps would round its rim by a part of
+/// a texel.
 ///
 /// # Errors
 /// [`LabError::Toile`] when the sample cannot be meshed.
@@ -61,7 +62,7 @@ pub fn drape(seed: u64, fabric: Fabric, spacing: f64, seconds: f64) -> Result<Dr
     let step = StepSettings::new(&settings, &model);
     let disc = cylinder(SUPPORT as f32, 0.3, 64);
     let surface = Surface { mesh: &disc, thickness, velocities: None, open: false };
-    let maps = BodyMaps::around(settings.maps, &[surface], settings.texel as f32);
+    let maps = BodyMaps::around(MapKind::Sides, &[surface], settings.texel as f32);
     let colliders = Colliders { maps: Some(maps), shapes: Vec::new() };
     let frames = (seconds * settings.frame_rate).round() as u32;
     let end = settled(&model, &step, colliders, frames);
