@@ -12,9 +12,17 @@ use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use toile::scene::{Polish, Settings};
 
+/// What a script hears.
+const EXIT_CODES: &str = "\
+Exit codes:
+  0    done, and every garment is on; one that is too tight but at rest is a warning
+  2    a bad option, a bad file, or a run that failed: one sentence says why, and nothing is written
+  3    done and written, but a garment is not on: fallen off, caught, moving, with an empty opening or an open seam
+  130  interrupted";
+
 /// Cloth simulation on the GPU: sews garments around bodies, drapes them, and says how well.
 #[derive(Debug, Parser)]
-#[command(name = "toile", version)]
+#[command(name = "toile", version, after_help = EXIT_CODES)]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]

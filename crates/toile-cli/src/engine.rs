@@ -4,12 +4,12 @@ use crate::adapter::Gpu;
 use crate::interrupt;
 use crate::look::{Look, State};
 use crate::reference_run::ReferenceRun;
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result};
 use std::collections::BTreeMap;
 use toile::gpu::{Kernel, PassTime, Timer};
-use toile::model::{Dressing, DressingError, Status};
+use toile::model::{Dressing, Status, Verdict};
 use toile::scene::Scene;
-use toile::{Cloth, Error, Simulation, Stage};
+use toile::{Cloth, Simulation, Stage};
 
 /// Steps that are timed pass by pass at the end of a run.
 const TIMED_STEPS: u32 = 20;
@@ -68,26 +68,11 @@ pub fn advance(gpu: &Gpu, simulation: &mut Simulation, seconds: f64) -> Result<u
     Ok(advance.step_count)
 }
 
-/// What a simulation is doing; of a garment that cannot be sewn, the seam that stayed open is named.
-pub fn stage(gpu: &Gpu, simulation: &mut Simulation) -> Result<Stage> {
-    let error = match simulation.stage() {
-        Ok(stage) => return Ok(stage),
-        Err(error) => error,
-    };
-    let Error::Dressing { garment, source: source @ DressingError::SeamsOpen { .. } } = &error else {
-        return Err(error.into());
-    };
-    let worn = simulation.cloths().last().context("a garment is being sewn")?;
-    let positions = State::of(gpu, worn.cloth)?.positions;
-    let seam = worn.model.widest_seam(&positions).map(|(name, _)| format!(", seam {name}")).unwrap_or_default();
-    Err(anyhow!(source.clone()).context(format!("garment {garment}{seam}")))
-}
-
 impl Engine<'_> {
     /// What the scene is doing.
     pub fn stage(&mut self) -> Result<Stage> {
         match self {
-            Engine::Gpu { gpu, simulation } => stage(gpu, simulation),
+            Engine::Gpu { simulation, .. } => Ok(simulation.stage()?),
             Engine::Reference(run) => Ok(run.stage()),
         }
     }
@@ -120,6 +105,14 @@ impl Engine<'_> {
         match self {
             Engine::Gpu { simulation, .. } => simulation.dressings().cloned().collect(),
             Engine::Reference(run) => run.dressings(),
+        }
+    }
+
+    /// How the garments are worn, in their order; empty once all go together.
+    pub fn verdicts(&self) -> Result<Vec<Verdict>> {
+        match self {
+            Engine::Gpu { gpu, simulation } => Ok(simulation.verdicts(&gpu.queue)?),
+            Engine::Reference(run) => Ok(run.verdicts()),
         }
     }
 

@@ -9,6 +9,7 @@ mod interrupt;
 mod look;
 mod mesa_layer;
 mod metrics;
+mod outcome;
 mod output;
 mod pattern;
 mod picture;
@@ -20,10 +21,13 @@ mod walk;
 mod worn;
 
 use clap::Parser;
+use outcome::Outcome;
 use std::process::ExitCode;
 
 /// Exit code of a bad option, a bad file, a run that fails.
 const FAILED: u8 = 2;
+/// Exit code of a run that is written, where a garment is not on.
+const NOT_WORN: u8 = 3;
 /// Exit code after ctrl-c: what a shell reports of a program that the signal ends.
 const INTERRUPTED: u8 = 130;
 
@@ -37,7 +41,8 @@ fn main() -> ExitCode {
         },
     };
     match interrupt::listen().and_then(|()| commands::run(&arguments.command)) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(Outcome::Done) => ExitCode::SUCCESS,
+        Ok(Outcome::NotWorn) => ExitCode::from(NOT_WORN),
         Err(error) if error.is::<interrupt::Interrupted>() => {
             eprintln!("{error}");
             ExitCode::from(INTERRUPTED)

@@ -4,11 +4,13 @@ mod contact;
 mod frames;
 mod largest;
 mod measures;
+mod told;
 
-pub use contact::{Surfaces, is_far, reach};
+pub use contact::{Surfaces, is_far, middles, reach};
 pub use frames::StrainRow;
 pub use largest::max_and_p99;
 pub use measures::Measures;
+pub use told::Told;
 
 use crate::worn::Worn;
 use serde::Serialize;
@@ -32,6 +34,8 @@ pub struct Metrics {
 pub struct ClothMetrics {
     /// Name of the garment or sheet.
     pub name: String,
+    /// How it is worn; null of a sheet.
+    pub verdict: Option<Told>,
     /// What is measured.
     #[serde(flatten)]
     pub measures: Measures,
@@ -51,13 +55,15 @@ impl ClothMetrics {
     /// Measures a cloth against the surfaces that it lies over; `texel` is that of their maps [m].
     pub fn new(worn: &Worn, surfaces: &Surfaces, texel: f32) -> Self {
         let measures = Measures::new(worn, surfaces, texel);
-        Self { name: worn.name.clone(), measures, frames: StrainRow::all(worn) }
+        let verdict = worn.verdict.as_ref().map(|verdict| Told::new(&worn.name, verdict));
+        Self { name: worn.name.clone(), verdict, measures, frames: StrainRow::all(worn) }
     }
 
     /// The cloth on one line, for the terminal.
     pub fn line(&self) -> String {
         let m = &self.measures;
-        let mut parts = vec![format!("{} particles", m.particle_count)];
+        let mut parts: Vec<String> = self.verdict.iter().map(|verdict| verdict.word.clone()).collect();
+        parts.push(format!("{} particles", m.particle_count));
         parts.push(match m.steps_sewing {
             0 => format!("{} steps", m.steps_draping),
             sewing => format!("sewn in {sewing} steps to {:.1} mm, draped in {}", m.seam_gap_max_mm, m.steps_draping),
@@ -68,6 +74,12 @@ impl ClothMetrics {
         }
         if let (Some(max), Some(p99)) = (m.penetration_max_mm, m.penetration_p99_mm) {
             parts.push(format!("penetration {max:.1} mm (99 of 100: {p99:.1} mm)"));
+        }
+        if let (Some(edge), Some(face)) = (m.edge_penetration_max_mm, m.face_penetration_max_mm) {
+            parts.push(format!("edges {edge:.1} mm, faces {face:.1} mm"));
+        }
+        if let Some(count) = m.crossed_count.filter(|count| *count > 0) {
+            parts.push(format!("{count} particles on the wrong side"));
         }
         format!("{}: {}", self.name, parts.join(" · "))
     }

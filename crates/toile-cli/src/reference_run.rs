@@ -2,16 +2,16 @@
 
 use crate::bodies::{meshes, shapes};
 use crate::look::{Look, State};
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use toile::Stage;
-use toile::model::{Dressing, DressingError, DressingStage, Merge, Open, Piece, StepSettings};
+use toile::model::{Dressing, DressingStage, Judged, Merge, Open, Piece, Solid, StepSettings, Verdict};
 use toile::scene::{MapKind, Mesh, Scene, Shape};
 use toile_reference::maps::{BodyMaps, Surface};
 use toile_reference::{Colliders, Reference};
 
 /// A scene by the CPU reference.
 pub struct ReferenceRun {
-    /// What the next garment lies on, each with whether it is open by what it is.
+    /// The bodies, then the garments that are dressed, each with whether it is open by what it is.
     layers: Vec<(Mesh, bool)>,
     maps: MapKind,
     thickness: f32,
@@ -89,7 +89,7 @@ impl ReferenceRun {
     /// Does one frame of the present cloth; steps that were done.
     pub fn frame(&mut self) -> Result<u32> {
         let is_last = self.worn.len() == self.pieces.len();
-        let piece = &self.pieces[self.worn.len() - 1];
+        let piece = &mut self.pieces[self.worn.len() - 1];
         let worn = self.worn.last_mut().expect("a scene has a cloth");
         worn.hand_over(piece);
         worn.reference.frame();
@@ -100,12 +100,8 @@ impl ReferenceRun {
         }
         let Some(dressing) = &mut worn.dressing else { return Ok(steps) };
         let count = worn.reference.positions().len() as u32;
-        if let Err(error) = dressing.advance(&status, count) {
-            let open = piece.open.as_ref().filter(|_| matches!(error, DressingError::SeamsOpen { .. }));
-            let seam = open.and_then(|open| open.model.widest_seam(worn.reference.positions()));
-            let seam = seam.map(|(name, _)| format!(", seam {name}")).unwrap_or_default();
-            return Err(error).with_context(|| format!("garment {}{seam}", piece.name));
-        }
+        dressing.advance(&status, count);
+        piece.leave_open(dressing.is_left_open());
         if dressing.stage() == DressingStage::Dressed && !is_last {
             let (positions, normals) = (worn.reference.positions().to_vec(), worn.reference.normals());
             self.layers.push((Mesh { positions, normals, triangles: piece.model.triangles() }, true));
@@ -131,6 +127,24 @@ impl ReferenceRun {
     /// How the garments were dressed, in their order.
     pub fn dressings(&self) -> Vec<Dressing> {
         self.worn.iter().filter_map(|worn| worn.dressing.clone()).collect()
+    }
+
+    /// How the garments are worn, in their order.
+    pub fn verdicts(&self) -> Vec<Verdict> {
+        let shapes: Vec<Mesh> = self.shapes.iter().map(|shape| shape.mesh(0.0)).collect();
+        let bodies = self.layers.iter().filter(|(_, open)| !open).map(|(mesh, _)| mesh);
+        let body = Solid::of(bodies.chain(&shapes));
+        let dressed = self.pieces.iter().zip(&self.worn);
+        let verdict = |(piece, Worn { reference, dressing, .. }): (&Piece, &Worn)| {
+            let judged = Judged {
+                model: &piece.model,
+                positions: reference.positions(),
+                velocities: reference.velocities(),
+                is_at_rest: dressing.as_ref()?.is_at_rest(),
+            };
+            Some(Verdict::of(&judged, &body))
+        };
+        dressed.filter_map(verdict).collect()
     }
 
     /// The cloths, in their order.

@@ -5,6 +5,7 @@ use crate::args::{Backend, Running};
 use crate::bodies::{meshes, moving, shapes};
 use crate::engine::Computer;
 use crate::metrics::{ClothMetrics, Metrics, Surfaces};
+use crate::outcome::Outcome;
 use crate::output::{self, Shown};
 use crate::stdout::print;
 use crate::worn::{self, Worn};
@@ -13,7 +14,7 @@ use toile::files::SceneFile;
 use toile::scene::{Cloth, Mesh, Scene};
 
 /// Simulates a scene: garments are dressed one after another, sheets run for a number of frames. Writes the results.
-pub fn simulate(file: &SceneFile, running: &Running) -> Result<()> {
+pub fn simulate(file: &SceneFile, running: &Running) -> Result<Outcome> {
     let scene = &file.scene;
     output::check(&running.out)?;
     check_bodies(scene, running.place.backend)?;
@@ -52,7 +53,7 @@ pub fn simulate(file: &SceneFile, running: &Running) -> Result<()> {
         }
         print(&format!("wrote {}", running.out.display()))?;
     }
-    Ok(())
+    Ok(Outcome::of(all.iter().filter_map(|worn| worn.verdict.as_ref())))
 }
 
 /// An error when a scene has bodies that a run does not know.

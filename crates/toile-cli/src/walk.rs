@@ -11,6 +11,7 @@ use crate::args::{Backend, Running};
 use crate::engine::{self, Engine, status};
 use crate::interrupt;
 use crate::look::State;
+use crate::outcome::{self, Outcome};
 use crate::output;
 use crate::picture::{self, Drawn, Material, View};
 use crate::stdout::print;
@@ -30,7 +31,7 @@ use std::time::Instant;
 use toile::Simulation;
 use toile::files::{MovingFaces, write_atomically, write_pc2, write_usda};
 use toile::gpu::{Kernel, Timer};
-use toile::model::Status;
+use toile::model::{Solid, Status, Verdict};
 use toile::scene::{Body, Cloth, Garment, Mesh, MovingMesh, Scene, Settings};
 use toile_reference::ExactDistance;
 use walker::Walker;
@@ -102,7 +103,7 @@ impl std::fmt::Write for Digest {
 }
 
 /// Dresses and walks, and writes pictures, motion and metrics.
-pub fn walk(walk: &Walk, running: &Running) -> Result<()> {
+pub fn walk(walk: &Walk, running: &Running) -> Result<Outcome> {
     output::check(&running.out)?;
     if running.place.backend == Backend::Reference {
         bail!("--backend reference: a walk needs a device; toile dress runs without one");
@@ -119,7 +120,9 @@ pub fn walk(walk: &Walk, running: &Running) -> Result<()> {
     }
     match saved.frame_count() {
         0 => {
-            simulation = dress(walk, &gpu, simulation, running.quiet)?;
+            let verdicts;
+            (simulation, verdicts) = dress(walk, &gpu, simulation, running.quiet)?;
+            saved.begin(&verdicts)?;
             saved.write(0, &simulation.save(&gpu.queue)?, &positions(&gpu, &simulation)?, None)?;
         }
         count => {
@@ -129,9 +132,9 @@ pub fn walk(walk: &Walk, running: &Running) -> Result<()> {
     }
     let walkers: Vec<Walker> = simulation.cloths().map(Walker::of).collect();
     let collision_part = simulate(walk, &gpu, &mut simulation, &saved, running)?;
-    let rows = saved.rows(walk.frame_count)?;
+    let (rows, verdicts) = (saved.rows(walk.frame_count)?, saved.verdicts()?);
     finish(walk, &walkers, &saved, running)?;
-    let metrics = WalkMetrics::new(&gpu.name, &walk.settings, &walkers, collision_part, rows);
+    let metrics = WalkMetrics::new(&gpu.name, &walk.settings, &walkers, &verdicts, collision_part, rows);
     let text = serde_json::to_string_pretty(&metrics)?;
     write_atomically(&running.out.join("metrics.json"), text.as_bytes())?;
     saved.remove()?;
@@ -141,19 +144,23 @@ pub fn walk(walk: &Walk, running: &Running) -> Result<()> {
         print(&metrics.line())?;
         print(&format!("wrote {}", running.out.display()))?;
     }
-    Ok(())
+    Ok(Outcome::of(&verdicts))
 }
 
-/// Dresses the garments one over the other, and has the body go over to the start of its walk.
-fn dress(walk: &Walk, gpu: &Gpu, simulation: Simulation, quiet: bool) -> Result<Simulation> {
+/// Dresses the garments one over the other, says how they are worn, and has the body go over to the start of its walk.
+fn dress(walk: &Walk, gpu: &Gpu, simulation: Simulation, quiet: bool) -> Result<(Simulation, Vec<Verdict>)> {
     let seconds = 1.0 / walk.settings.frame_rate;
     let mut logs: Vec<Log> = walk.garments.iter().map(|_| Log::default()).collect();
     let mut engine = Engine::Gpu { gpu, simulation: Box::new(simulation) };
     worn::dress(&mut engine, &mut logs.iter_mut().collect::<Vec<_>>(), seconds, quiet)?;
+    let verdicts = engine.verdicts()?;
+    for (garment, verdict) in walk.garments.iter().zip(&verdicts).filter(|_| !quiet) {
+        outcome::warn(&garment.name, verdict);
+    }
     let Engine::Gpu { mut simulation, .. } = engine else { unreachable!("it was just made") };
     // No time passes: what comes next begins.
     engine::advance(gpu, &mut simulation, 0.0)?;
-    while engine::stage(gpu, &mut simulation)? != toile::Stage::Running {
+    while simulation.stage()? != toile::Stage::Running {
         interrupt::check()?;
         engine::advance(gpu, &mut simulation, seconds)?;
         for worn in simulation.cloths() {
@@ -161,7 +168,7 @@ fn dress(walk: &Walk, gpu: &Gpu, simulation: Simulation, quiet: bool) -> Result<
         }
         engine::advance(gpu, &mut simulation, 0.0)?;
     }
-    Ok(*simulation)
+    Ok((*simulation, verdicts))
 }
 
 /// Positions of all cloths [m].
@@ -185,7 +192,7 @@ fn simulate(walk: &Walk, gpu: &Gpu, simulation: &mut Simulation, saved: &Saved, 
         let (_, [maps_ms, simulated_ms]) = simulation.advance_timed(&gpu.queue, seconds)?;
         let output = Instant::now();
         let body = walk.body.at(time);
-        let (exact, mut inner) = (ExactDistance::new(&body), Vec::new());
+        let (exact, mut inner) = ((ExactDistance::new(&body), Solid::of([&body])), Vec::new());
         let mut row = FrameRow::new(frame, time, maps_ms, simulated_ms);
         let (mut points, mut cloths) = (Vec::new(), Vec::new());
         for (worn, last) in simulation.cloths().zip(&mut last) {

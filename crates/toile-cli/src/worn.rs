@@ -2,6 +2,7 @@
 
 use crate::engine::{Computer, Engine};
 use crate::look::{Look, State};
+use crate::outcome;
 use crate::progress::Progress;
 use anyhow::{Context, Result};
 use std::collections::BTreeMap;
@@ -9,7 +10,7 @@ use std::time::Instant;
 use toile::Stage;
 use toile::files::SceneFile;
 use toile::gpu::PassTime;
-use toile::model::{DressingStage, Model, Status, StepSettings};
+use toile::model::{DressingStage, Model, Status, StepSettings, Verdict};
 use toile::scene::{Cloth, Mesh};
 
 /// A cloth that has been simulated.
@@ -30,8 +31,10 @@ pub struct Worn {
     pub sewing_steps: u64,
     /// Steps draped or run.
     pub draping_steps: u64,
-    /// Widest seam gap when the pairs were merged [m].
+    /// Widest seam gap at the end of sewing [m].
     pub seam_gap: f32,
+    /// How it is worn; `None` of a sheet.
+    pub verdict: Option<Verdict>,
     /// What was seen along the way.
     pub log: Log,
     /// Cost of a step by pass.
@@ -71,7 +74,7 @@ pub fn run(file: &SceneFile, computer: &Computer, quiet: bool) -> Result<Vec<Wor
     let mut logs: Vec<Log> = file.scene.cloths.iter().map(|_| Log::default()).collect();
     let of_garments = file.scene.cloths.iter().zip(&mut logs).filter(|(cloth, _)| matches!(cloth, Cloth::Garment(_)));
     dress(&mut engine, &mut of_garments.map(|(_, log)| log).collect::<Vec<_>>(), seconds, quiet)?;
-    let mut dressed = engine.dressings().into_iter();
+    let mut dressed = engine.dressings().into_iter().zip(engine.verdicts()?);
     if file.scene.cloths.iter().any(|cloth| matches!(cloth, Cloth::Sheet(_))) {
         run_frames(&mut engine, &mut logs, file, seconds, quiet)?;
     }
@@ -79,7 +82,10 @@ pub fn run(file: &SceneFile, computer: &Computer, quiet: bool) -> Result<Vec<Wor
     let mut worn = Vec::new();
     for ((look, State { positions, normals, touching }), log) in engine.cloths()?.into_iter().zip(states).zip(logs) {
         let is_garment = matches!(file.scene.cloths[worn.len()], Cloth::Garment(_));
-        let dressing = if is_garment { dressed.next() } else { None };
+        let (dressing, verdict) = if is_garment { dressed.next() } else { None }.unzip();
+        if let Some(verdict) = verdict.as_ref().filter(|_| !quiet) {
+            outcome::warn(look.name, verdict);
+        }
         worn.push(Worn {
             name: look.name.to_owned(),
             mesh: Mesh { positions, normals, triangles: look.model.triangles() },
@@ -90,6 +96,7 @@ pub fn run(file: &SceneFile, computer: &Computer, quiet: bool) -> Result<Vec<Wor
             sewing_steps: dressing.as_ref().map_or(0, |dressing| dressing.sewing_steps()),
             draping_steps: dressing.as_ref().map_or(look.status.step, |dressing| dressing.draping_steps()),
             seam_gap: dressing.as_ref().map_or(0.0, |dressing| dressing.seam_gap()),
+            verdict,
             log,
             gpu_bytes: bytes.get(worn.len()).copied().unwrap_or(0),
             pass_times: BTreeMap::new(),
@@ -101,7 +108,7 @@ pub fn run(file: &SceneFile, computer: &Computer, quiet: bool) -> Result<Vec<Wor
     Ok(worn)
 }
 
-/// Dresses every garment until it is at rest. There is a log for each garment.
+/// Dresses every garment until it is at rest or its time is up. There is a log for each garment.
 pub fn dress(engine: &mut Engine<'_>, logs: &mut [&mut Log], seconds: f64, quiet: bool) -> Result<()> {
     let mut told: Vec<Progress> = Vec::new();
     loop {

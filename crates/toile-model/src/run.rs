@@ -1,4 +1,4 @@
-//! What a run needs beside its model: the numbers of a step, status, criteria of dressing, the place of the maps.
+//! What a run needs beside its model: the numbers of a step, status, criteria of dressing, how a garment is worn, the place of the maps.
 
 pub(crate) mod dressing;
 pub(crate) mod map_box;
@@ -7,3 +7,4 @@ pub(crate) mod shape_step;
 pub(crate) mod side_box;
 pub(crate) mod status;
 pub(crate) mod step;
+pub(crate) mod verdict;

@@ -12,14 +12,6 @@ pub enum Error {
     /// The cloth cannot be meshed.
     #[error(transparent)]
     Model(#[from] toile_model::ModelError),
-    /// A garment could not be dressed.
-    #[error("garment {garment}: {source}")]
-    Dressing {
-        /// Name of the garment.
-        garment: String,
-        /// Why.
-        source: toile_model::DressingError,
-    },
     /// The motion of a body leads to no place.
     #[error("the body has no finite position at {time} s of its motion: mend its clip, or choose another one")]
     Body {

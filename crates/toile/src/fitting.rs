@@ -1,4 +1,4 @@
-//! A garment on its way onto a body: sewn, eased and draped, each until measured criteria hold.
+//! A garment on its way onto a body: sewn, eased and draped, each until measured criteria hold or its time is up.
 
 use crate::{Cloth, Colliders, Error};
 use toile_model::{Dressing, DressingStage, Merge, Piece, Status};
@@ -37,8 +37,8 @@ impl Fitting {
     /// Hears what the device has reported since the last time.
     ///
     /// # Errors
-    /// [`Error::Diverged`], and [`Error::Dressing`] when the criteria of a stage can no longer be met.
-    pub(crate) fn hear(&mut self, piece: &Piece) -> Result<(), Error> {
+    /// [`Error::Diverged`] when a particle is not finite.
+    pub(crate) fn hear(&mut self, piece: &mut Piece) -> Result<(), Error> {
         // What the cloth of the stage before reports says nothing about the next.
         if self.dressing.stage() != self.stage {
             return Ok(());
@@ -50,9 +50,8 @@ impl Fitting {
         };
         self.heard = Some(status.step);
         let count = self.cloth.frame().particle_count;
-        self.dressing
-            .advance(&status, count)
-            .map_err(|source| Error::Dressing { garment: piece.name.clone(), source })?;
+        self.dressing.advance(&status, count);
+        piece.leave_open(self.dressing.is_left_open());
         Ok(())
     }
 

@@ -9,8 +9,8 @@ use crate::stage::Stage;
 use crate::{Cloth, Colliders, Error, pose};
 use glam::Vec3;
 use std::sync::Arc;
-use toile_gpu::{BodyMaps, MapSpace, Surface};
-use toile_model::{Dressing, DressingStage, MapBox, Model, Piece, StepSettings};
+use toile_gpu::{BodyMaps, MapSpace, Surface, readback};
+use toile_model::{Dressing, DressingStage, Judged, MapBox, Model, Piece, Solid, StepSettings, Verdict};
 use toile_scene::{Body, Mesh, MovingMesh, Scene, Settings};
 
 /// Time that garments have to hang quietly once the body has gone over to the start of its motion [s].
@@ -140,8 +140,8 @@ impl Simulation {
     /// dropped loses it.
     ///
     /// # Errors
-    /// [`Error::Diverged`] when a particle is not finite, [`Error::Dressing`] when a garment cannot be dressed, [`Error::Gpu`] when what comes
-    /// next does not fit the device.
+    /// [`Error::Diverged`] when a particle is not finite, [`Error::Gpu`] when what comes next does not fit the device. A garment that cannot be
+    /// dressed is none: see [`Simulation::verdicts`].
     ///
     /// # Panics
     /// When the seconds are negative or no number.
@@ -205,7 +205,7 @@ impl Simulation {
     /// What the simulation is doing, as far as the device has reported.
     ///
     /// # Errors
-    /// [`Error::Diverged`] when a particle is not finite, [`Error::Dressing`] when a garment cannot be dressed.
+    /// [`Error::Diverged`] when a particle is not finite.
     pub fn stage(&mut self) -> Result<Stage, Error> {
         match &mut self.phase {
             Phase::Together { outfit, stage, .. } => {
@@ -218,9 +218,8 @@ impl Simulation {
                 Ok(*stage)
             }
             Phase::Dressing(dressed) => {
-                let garments = self.pieces.iter().filter(|piece| piece.open.is_some());
-                let next = garments.clone().nth(dressed.done.len());
-                let Some(piece) = next else {
+                let mut garments = self.pieces.iter_mut().filter(|piece| piece.open.is_some());
+                let Some(piece) = garments.nth(dressed.done.len()) else {
                     return Ok(if dressed.done.is_empty() { Stage::Running } else { Stage::Dressed });
                 };
                 let Some(mut fitting) = dressed.fitting.take() else { return Ok(Stage::Sewing) };
@@ -479,6 +478,28 @@ impl Simulation {
             let fitting = dressed.fitting.iter().map(|fitting| &fitting.dressing);
             dressed.done.iter().map(|done| &done.dressing).chain(fitting)
         })
+    }
+
+    /// How the garments are worn that are dressed, from the inside out, on the bodies as they are dressed; empty once all go together. A host asks
+    /// at [`Stage::Dressed`]. Waits for the device; what was recorded must have been submitted.
+    ///
+    /// # Errors
+    /// [`Error::Gpu`] when the device is lost.
+    pub fn verdicts(&self, queue: &wgpu::Queue) -> Result<Vec<Verdict>, Error> {
+        let Phase::Dressing(dressed) = &self.phase else { return Ok(Vec::new()) };
+        let shapes: Vec<Mesh> = self.bodies.shapes.iter().map(|shape| shape.mesh(0.0)).collect();
+        let body = Solid::of(self.dressing_meshes().into_iter().chain(&shapes));
+        let read = |buffer: &wgpu::Buffer| -> Result<Vec<Vec3>, Error> {
+            let values = readback::read_vec4s(&self.device, queue, buffer)?;
+            Ok(values.into_iter().map(|value| value.truncate()).collect())
+        };
+        let garments = self.pieces.iter().filter(|piece| piece.open.is_some());
+        let verdict = |(piece, Done { cloth, dressing, .. }): (&Piece, &Done)| -> Result<Verdict, Error> {
+            let (positions, velocities) = (read(&cloth.frame().positions)?, read(cloth.velocities())?);
+            let (model, is_at_rest) = (&piece.model, dressing.is_at_rest());
+            Ok(Verdict::of(&Judged { model, positions: &positions, velocities: &velocities, is_at_rest }, &body))
+        };
+        garments.zip(&dressed.done).map(verdict).collect()
     }
 
     /// The bodies on the device as the maps draw them, at [`Simulation::body_time`]: those at rest, then those that move; none while garments

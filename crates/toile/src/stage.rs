@@ -9,7 +9,7 @@ pub enum Stage {
     Easing,
     /// A garment comes to rest.
     Draping,
-    /// Every garment is at rest. The next advance goes on to what comes then.
+    /// Every garment is at rest, or had its time to come to rest. The next advance goes on to what comes then.
     Dressed,
     /// The body goes over from the pose that its garments were sewn in to the start of its motion, and they along with it.
     Posing,

@@ -13,7 +13,7 @@ use toile_gpu::readback;
 use toile_model::{Dressing, DressingStage, Piece, Status, digest_of};
 
 /// What the bytes begin with; another layout has another number.
-const MAGIC: &[u8] = b"toile state 1\n";
+const MAGIC: &[u8] = b"toile state 2\n";
 
 /// The whole state of a simulation.
 #[derive(Debug, Serialize, Deserialize)]
@@ -33,6 +33,8 @@ struct Identity {
     name: String,
     particle_count: u32,
     digest: u64,
+    /// Whether its seams stayed open and it is worn as its open model.
+    is_left_open: bool,
 }
 
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
@@ -120,7 +122,11 @@ impl Simulation {
     /// [`Error::State`] when the bytes are damaged or of other cloths, which are named; [`Error::Gpu`] when what it needs does not fit the device.
     pub fn restore(&mut self, queue: &wgpu::Queue, bytes: &[u8]) -> Result<(), Error> {
         let state = decode(bytes)?;
-        let own: Vec<Identity> = self.pieces.iter().map(Identity::of).collect();
+        let mut pieces = self.pieces.clone();
+        for (piece, saved) in pieces.iter_mut().zip(&state.pieces) {
+            piece.leave_open(saved.is_left_open);
+        }
+        let own: Vec<Identity> = pieces.iter().map(Identity::of).collect();
         for (saved, own) in state.pieces.iter().zip(&own) {
             if saved != own {
                 let named =
@@ -135,12 +141,13 @@ impl Simulation {
         if state.pieces.len() != own.len() {
             return Err(Error::State(format!("it has {} cloths, and the scene has {}", state.pieces.len(), own.len())));
         }
+        let before = std::mem::replace(&mut self.pieces, pieces);
         let phase = match state.stage {
-            SavedStage::Dressing => self.restored_dressing(queue, &state)?,
-            SavedStage::Posing => self.restored_together(queue, &state, Stage::Posing)?,
-            SavedStage::Running => self.restored_together(queue, &state, Stage::Running)?,
+            SavedStage::Dressing => self.restored_dressing(queue, &state),
+            SavedStage::Posing => self.restored_together(queue, &state, Stage::Posing),
+            SavedStage::Running => self.restored_together(queue, &state, Stage::Running),
         };
-        self.phase = phase;
+        self.phase = phase.inspect_err(|_| self.pieces = before)?;
         self.clock = Clock::new(state.asked_seconds, state.done_parts);
         Ok(())
     }
@@ -219,7 +226,8 @@ impl Identity {
     fn of(piece: &Piece) -> Self {
         let numbers = format!("{:?}", piece.step);
         let digest = piece.model.digest() ^ digest_of(numbers.as_bytes());
-        Self { name: piece.name.clone(), particle_count: piece.model.particle_count(), digest }
+        let is_left_open = piece.is_left_open();
+        Self { name: piece.name.clone(), particle_count: piece.model.particle_count(), digest, is_left_open }
     }
 }
 

@@ -10,17 +10,19 @@ mod run;
 mod walk;
 
 use crate::args::Command;
+use crate::outcome::Outcome;
 use anyhow::Result;
 
 /// Does what the user typed.
-pub fn run(command: &Command) -> Result<()> {
+pub fn run(command: &Command) -> Result<Outcome> {
     match command {
-        Command::Dress(arguments) => dress::run(arguments),
-        Command::Walk(arguments) => walk::run(arguments),
+        Command::Dress(arguments) => return dress::run(arguments),
+        Command::Walk(arguments) => return walk::run(arguments),
+        Command::Run(arguments) => return run::run(arguments),
         Command::Rules(arguments) => rules::run(arguments),
-        Command::Run(arguments) => run::run(arguments),
         Command::Plan(arguments) => plan::run(arguments),
         Command::Report(arguments) => report::run(arguments),
         Command::Adapters(arguments) => adapters::run(arguments),
-    }
+    }?;
+    Ok(Outcome::Done)
 }

@@ -2,12 +2,13 @@
 
 use crate::args::{Outfit, Walk};
 use crate::commands::outfit;
+use crate::outcome::Outcome;
 use crate::walk;
 use anyhow::{Result, bail};
 use toile::scene::{Settings, Wind};
 
 /// Walks the outfit that the options name.
-pub fn run(arguments: &Walk) -> Result<()> {
+pub fn run(arguments: &Walk) -> Result<Outcome> {
     let outfit = &arguments.outfit;
     if outfit.time != 0.0 {
         bail!("--time {}: a walk begins with its clip; leave it out", outfit.time);

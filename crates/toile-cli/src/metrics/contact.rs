@@ -2,7 +2,9 @@
 
 use super::largest::max_and_p99;
 use crate::worn::Worn;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
+use std::collections::BTreeSet;
+use toile::model::{Model, NO_CORNER, Solid, crossed_particles};
 use toile::scene::{Body, Mesh, Shape};
 use toile_reference::ExactDistance;
 
@@ -11,6 +13,7 @@ pub struct Surfaces {
     /// Distance that the cloth keeps from all of them [m].
     thickness: f64,
     bodies: Vec<Exact>,
+    solid: Solid,
     garments: Vec<ExactDistance>,
 }
 
@@ -21,6 +24,12 @@ pub struct Contact {
     pub penetration_max: f64,
     /// 99th percentile of it [m].
     pub penetration_p99: f64,
+    /// Deepest middle of an edge of a face [m].
+    pub edge_penetration_max: f64,
+    /// Deepest middle of a face [m].
+    pub face_penetration_max: f64,
+    /// Particles on the wrong side of the bodies.
+    pub crossed_count: u32,
     /// Part of the particles that count as touching although they are far from every surface.
     pub false_fraction: f64,
 }
@@ -51,6 +60,21 @@ impl Exact {
     }
 }
 
+/// Middles of the edges of a cloth's faces, and of the faces themselves [m]. Between its particles cloth goes straight on, where a body bulges.
+pub fn middles(model: &Model, positions: &[Vec3]) -> [Vec<DVec3>; 2] {
+    let place = |particle: u32| positions[particle as usize].as_dvec3();
+    let mut edges: BTreeSet<[u32; 2]> = BTreeSet::new();
+    let mut faces = Vec::with_capacity(model.quads.len());
+    for quad in &model.quads {
+        let corners = if quad[3] == NO_CORNER { &quad[..3] } else { quad };
+        for (&a, &b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+            edges.insert([a.min(b), a.max(b)]);
+        }
+        faces.push(corners.iter().map(|corner| place(*corner)).sum::<DVec3>() / corners.len() as f64);
+    }
+    [edges.into_iter().map(|[a, b]| place(a).midpoint(place(b))).collect(), faces]
+}
+
 impl Surfaces {
     /// The bodies of a scene as they stand at a time [s]; cloth keeps `thickness` [m] from them and from garments below it.
     pub fn new(bodies: &[Body], thickness: f64, time: f64) -> Self {
@@ -59,7 +83,13 @@ impl Surfaces {
             Body::Moving(body) => Exact::Mesh(Box::new(ExactDistance::new(&body.at(time)))),
             Body::Shape(shape) => Exact::Shape(shape.clone()),
         };
-        Self { thickness, bodies: bodies.iter().map(exact).collect(), garments: Vec::new() }
+        let mesh = |body: &Body| match body {
+            Body::Mesh(mesh) => mesh.clone(),
+            Body::Moving(body) => body.at(time),
+            Body::Shape(shape) => shape.mesh(time),
+        };
+        let solid = Solid::of(&bodies.iter().map(mesh).collect::<Vec<_>>());
+        Self { thickness, bodies: bodies.iter().map(exact).collect(), solid, garments: Vec::new() }
     }
 
     /// A garment that later ones lie over.
@@ -81,14 +111,24 @@ impl Surfaces {
             .count();
         let false_fraction = false_count as f64 / depths.len() as f64;
         let [penetration_max, penetration_p99] = max_and_p99(depths)?;
-        Some(Contact { penetration_max, penetration_p99, false_fraction })
+        let [edge_penetration_max, face_penetration_max] = middles(&worn.model, &worn.mesh.positions)
+            .map(|points| points.into_iter().filter_map(depth).fold(f64::NEG_INFINITY, f64::max));
+        let crossed_count = crossed_particles(&worn.model, &worn.mesh.positions, &self.solid).0.len() as u32;
+        Some(Contact {
+            penetration_max,
+            penetration_p99,
+            edge_penetration_max,
+            face_penetration_max,
+            crossed_count,
+            false_fraction,
+        })
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::{Vec3, dvec3};
+    use glam::dvec3;
 
     #[test]
     fn what_lies_on_an_inner_garment_is_not_far() {

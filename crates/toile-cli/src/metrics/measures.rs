@@ -20,7 +20,7 @@ pub struct Measures {
     pub steps_sewing: u64,
     /// Steps from then until rest, or steps of the run.
     pub steps_draping: u64,
-    /// Widest seam gap when the pairs were merged [mm].
+    /// Widest seam gap at the end of sewing [mm].
     pub seam_gap_max_mm: f64,
     /// Largest elongation of a structural or shear spring at the end [1].
     pub elongation_max: f64,
@@ -38,6 +38,12 @@ pub struct Measures {
     pub penetration_max_mm: Option<f64>,
     /// 99th percentile of it [mm].
     pub penetration_p99_mm: Option<f64>,
+    /// Deepest middle of an edge of a face below the surface of the body [mm]: cloth bends over a body between its particles.
+    pub edge_penetration_max_mm: Option<f64>,
+    /// Deepest middle of a face [mm].
+    pub face_penetration_max_mm: Option<f64>,
+    /// Particles on the wrong side of the body: more than 1 cm inside, or on a spring whose middle is; null without a body.
+    pub crossed_count: Option<u32>,
     /// Part of the particles that count as touching although they are farther from every surface than thickness + 2 texels.
     pub false_contact_fraction: Option<f64>,
     /// Mean kinetic energy of a particle at the end [J].
@@ -96,6 +102,9 @@ impl Measures {
             steps_per_frame: worn.settings.steps_per_frame,
             penetration_max_mm: contact.map(|contact| 1e3 * contact.penetration_max),
             penetration_p99_mm: contact.map(|contact| 1e3 * contact.penetration_p99),
+            edge_penetration_max_mm: contact.map(|contact| 1e3 * contact.edge_penetration_max),
+            face_penetration_max_mm: contact.map(|contact| 1e3 * contact.face_penetration_max),
+            crossed_count: contact.map(|contact| contact.crossed_count),
             false_contact_fraction: contact.map(|contact| contact.false_fraction),
             kinetic_energy_per_particle_j: f64::from(worn.status.kinetic_energy) / particles,
             non_finite_count: worn.status.non_finite_count,
@@ -130,6 +139,9 @@ impl Measures {
             steps_per_frame: self.steps_per_frame.max(other.steps_per_frame),
             penetration_max_mm: worse(self.penetration_max_mm, other.penetration_max_mm),
             penetration_p99_mm: worse(self.penetration_p99_mm, other.penetration_p99_mm),
+            edge_penetration_max_mm: worse(self.edge_penetration_max_mm, other.edge_penetration_max_mm),
+            face_penetration_max_mm: worse(self.face_penetration_max_mm, other.face_penetration_max_mm),
+            crossed_count: self.crossed_count.into_iter().chain(other.crossed_count).reduce(|a, b| a + b),
             // A sheet that hangs free has no contacts, so it has no false ones.
             false_contact_fraction: worse(self.false_contact_fraction, other.false_contact_fraction)
                 .map(|_| mean(self.false_contact_fraction.unwrap_or(0.0), other.false_contact_fraction.unwrap_or(0.0))),

@@ -3,10 +3,10 @@
 use super::regions::Regions;
 use super::walker::Walker;
 use crate::look::State;
-use crate::metrics::{is_far, max_and_p99, reach};
+use crate::metrics::{Told, is_far, max_and_p99, middles, reach};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use toile::model::{Model, Status};
+use toile::model::{Model, Solid, Status, Verdict, crossed_particles};
 use toile::scene::{Mesh, Settings};
 use toile_reference::ExactDistance;
 
@@ -15,6 +15,8 @@ use toile_reference::ExactDistance;
 pub struct WalkMetrics {
     adapter: String,
     garments: Vec<String>,
+    /// How each of them is worn before the walk.
+    verdicts: Vec<Told>,
     particle_count: u32,
     steps_per_frame: u32,
     frame_rate: f64,
@@ -27,6 +29,10 @@ pub struct WalkMetrics {
     missed_steps: u32,
     penetration_max_mm: f64,
     penetration_p99_worst_mm: f64,
+    edge_penetration_max_mm: f64,
+    face_penetration_max_mm: f64,
+    /// The most in a frame.
+    crossed_count: u32,
     false_contact_fraction_mean: f64,
     false_contacts_by_region: BTreeMap<String, u32>,
     non_finite_count: u32,
@@ -64,6 +70,12 @@ pub struct FrameRow {
     pub penetration_max_mm: f64,
     /// 99th percentile of that depth, of the garment where it is largest [mm].
     pub penetration_p99_mm: f64,
+    /// Deepest middle of an edge of a face [mm].
+    pub edge_penetration_max_mm: f64,
+    /// Deepest middle of a face [mm].
+    pub face_penetration_max_mm: f64,
+    /// Particles on the wrong side of the body.
+    pub crossed_count: u32,
     /// Particles in contact by the maps that are farther from body and inner garments than thickness + 2 texels, as part of all.
     pub false_contact_fraction: f64,
     /// Those particles by the region of the body that is nearest to them.
@@ -95,6 +107,8 @@ impl FrameRow {
             simulation_ms,
             penetration_max_mm: none,
             penetration_p99_mm: none,
+            edge_penetration_max_mm: none,
+            face_penetration_max_mm: none,
             ..Self::default()
         }
     }
@@ -106,7 +120,7 @@ impl FrameRow {
         model: &Model,
         state: &State,
         status: &Status,
-        exact: &ExactDistance,
+        (exact, solid): &(ExactDistance, Solid),
         inner: &[ExactDistance],
         body: &Mesh,
         regions: &Regions,
@@ -143,6 +157,11 @@ impl FrameRow {
         let [max, p99] = max_and_p99(depths).unwrap_or([f64::NEG_INFINITY; 2]);
         self.penetration_max_mm = self.penetration_max_mm.max(1e3 * max);
         self.penetration_p99_mm = self.penetration_p99_mm.max(1e3 * p99);
+        let [edge, face] = middles(model, positions)
+            .map(|points| points.into_iter().map(|point| exact.penetration(point)).fold(f64::NEG_INFINITY, f64::max));
+        self.edge_penetration_max_mm = self.edge_penetration_max_mm.max(1e3 * edge);
+        self.face_penetration_max_mm = self.face_penetration_max_mm.max(1e3 * face);
+        self.crossed_count += crossed_particles(model, positions, solid).0.len() as u32;
         self.speed_max = self.speed_max.max(status.speed_max);
         self.kinetic_energy += status.kinetic_energy;
         self.non_finite_count += status.non_finite_count;
@@ -163,6 +182,7 @@ impl WalkMetrics {
         adapter: &str,
         settings: &Settings,
         walkers: &[Walker],
+        verdicts: &[Verdict],
         collision_part: f64,
         frames: Vec<FrameRow>,
     ) -> Self {
@@ -181,6 +201,7 @@ impl WalkMetrics {
         Self {
             adapter: adapter.to_owned(),
             garments: walkers.iter().map(|walker| walker.name.clone()).collect(),
+            verdicts: walkers.iter().zip(verdicts).map(|(walker, verdict)| Told::new(&walker.name, verdict)).collect(),
             particle_count: walkers.iter().map(|walker| walker.particle_count).sum(),
             steps_per_frame: walkers.first().map_or(0, |walker| walker.steps_per_frame),
             frame_rate: settings.frame_rate,
@@ -192,6 +213,9 @@ impl WalkMetrics {
             missed_steps: frames.iter().map(|row| row.missed_steps).sum(),
             penetration_max_mm: most(|row| row.penetration_max_mm),
             penetration_p99_worst_mm: most(|row| row.penetration_p99_mm),
+            edge_penetration_max_mm: most(|row| row.edge_penetration_max_mm),
+            face_penetration_max_mm: most(|row| row.face_penetration_max_mm),
+            crossed_count: frames.iter().map(|row| row.crossed_count).max().unwrap_or(0),
             false_contact_fraction_mean: fractions / frames.len().max(1) as f64,
             false_contacts_by_region: regions,
             non_finite_count: frames.iter().map(|row| row.non_finite_count).sum(),

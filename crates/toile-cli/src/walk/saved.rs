@@ -6,9 +6,12 @@ use glam::Vec3;
 use std::fs;
 use std::path::{Path, PathBuf};
 use toile::files::write_atomically;
+use toile::model::Verdict;
 
 /// Folder of a walk that is not finished, within that of its results.
 const FOLDER: &str = ".unfinished-walk";
+/// File that says how the garments are worn.
+const VERDICTS: &str = "verdicts.json";
 /// File that says which walk it is.
 const IDENTITY: &str = "identity.txt";
 
@@ -47,13 +50,22 @@ impl Saved {
         }
     }
 
-    /// Makes the folder of a walk that begins, without what one that lost its first frame may have left there.
-    fn begin(&self) -> Result<()> {
+    /// Makes the folder of a walk that begins, without what one that lost its first frame may have left there, and keeps how the garments
+    /// are worn.
+    pub fn begin(&self, verdicts: &[Verdict]) -> Result<()> {
         if self.folder.exists() {
             self.remove()?;
         }
         fs::create_dir_all(&self.folder).with_context(|| format!("cannot create {}", self.folder.display()))?;
+        write_atomically(&self.folder.join(VERDICTS), &serde_json::to_vec(verdicts)?)?;
         Ok(write_atomically(&self.folder.join(IDENTITY), self.identity.as_bytes())?)
+    }
+
+    /// How the garments are worn.
+    pub fn verdicts(&self) -> Result<Vec<Verdict>> {
+        let path = self.folder.join(VERDICTS);
+        let text = fs::read(&path).with_context(|| format!("{}: it cannot be read", path.display()))?;
+        serde_json::from_slice(&text).with_context(|| format!("{}: it is damaged", path.display()))
     }
 
     /// How many frames there are, without a gap from the first.
@@ -61,11 +73,8 @@ impl Saved {
         (0..).take_while(|frame| self.state_path(*frame).exists()).count() as u32
     }
 
-    /// Keeps a frame, its state and the positions of all garments [m]; frame 0 begins the walk.
+    /// Keeps a frame, its state and the positions of all garments [m], of a walk that has begun.
     pub fn write(&self, frame: u32, state: &[u8], positions: &[Vec<Vec3>], row: Option<&FrameRow>) -> Result<()> {
-        if frame == 0 {
-            self.begin()?;
-        }
         if let Some(row) = row {
             write_atomically(&self.row_path(frame), &serde_json::to_vec(row)?)?;
         }
@@ -139,6 +148,7 @@ mod tests {
         let saved = open(false, "a").expect("a new walk");
         assert_eq!(fs::read_dir(out.path()).expect("a folder").count(), 0, "nothing is written before its first frame");
         let points = vec![vec![Vec3::X], vec![Vec3::Y, Vec3::Z]];
+        saved.begin(&[Verdict::default()]).expect("begun");
         saved.write(0, b"state", &points, None).expect("written");
         assert!(told(false, "a").is_err_and(|e| e.contains("--resume")), "nothing is overwritten");
         assert!(told(true, "b").is_err_and(|e| e.contains("another one")));
@@ -148,6 +158,7 @@ mod tests {
         assert_eq!(saved.frame_count(), 1, "frame 1 is missing");
         assert_eq!(saved.state(0).expect("read"), b"state");
         assert_eq!(saved.positions(0, 1).expect("read"), points[1]);
+        assert_eq!(saved.verdicts().expect("read"), [Verdict::default()]);
 
         let path = saved.points_path(0, 1);
         let bytes = fs::read(&path).expect("there");
@@ -157,6 +168,7 @@ mod tests {
         let path = saved.state_path(0);
         fs::remove_file(&path).expect("deleted");
         let anew = open(false, "b").expect("without its first frame it begins anew");
+        anew.begin(&[]).expect("begun");
         anew.write(0, b"anew", &points, None).expect("written");
         assert!(!anew.state_path(2).exists(), "what the other one left is gone");
         assert_eq!(told(true, "b"), Ok(()));

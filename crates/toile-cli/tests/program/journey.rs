@@ -356,7 +356,11 @@ fn narrower_skirt(part: f64) -> String {
 fn a_garment_that_is_too_tight_stretches_rather_than_cut_into_the_body() {
     let journey = Journey::new();
     fs::write(journey.folder.path().join("tight.json"), narrower_skirt(0.06)).expect("written");
-    let metrics = json(&good(journey.run(&["dress", "--garment", "tight.json", "--spacing", "3cm", "--json"])));
+    let output = journey.run(&["dress", "--garment", "tight.json", "--spacing", "3cm", "--json"]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && said.starts_with("warning: garment tight: too tight: panel "), "{said}");
+    let metrics = json(&String::from_utf8_lossy(&output.stdout));
+    assert_eq!(metrics["cloths"][0]["verdict"]["word"], "too tight but at rest", "{metrics}");
     let number = |name: &str| metrics[name].as_f64().expect("a number");
     assert!((0.06..0.12).contains(&number("elongation_max")), "it is too tight for its limits: {metrics}");
     assert!(number("penetration_max_mm") < 1.0, "{metrics}");
@@ -366,6 +370,22 @@ fn a_garment_that_is_too_tight_stretches_rather_than_cut_into_the_body() {
     assert_eq!(dispatches(&metrics["passes"], "name"), dispatches(&sewn["step"], "kernel"));
     let bytes = ["bytes", "map_bytes"].map(|key| sewn[key].as_u64().expect("a number"));
     assert_eq!(metrics["gpu_bytes"], bytes[0] + bytes[1]);
+}
+
+#[test]
+fn a_garment_that_is_too_wide_falls_off_and_is_written_all_the_same() {
+    let journey = Journey::new();
+    fs::write(journey.folder.path().join("wide.json"), narrower_skirt(-0.7)).expect("written");
+    let options = ["--garment", "wide.json", "--spacing", "6cm", "--texel", "1cm", "--json"];
+    let output = journey.run(&[&["dress"], &options[..]].concat());
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(said.starts_with("warning: garment wide: fallen off: "), "{said}");
+    assert_eq!(journey.names("out"), FILES);
+    let metrics = journey.metrics("out");
+    let verdict = &metrics["cloths"][0]["verdict"];
+    assert_eq!((&verdict["word"], &verdict["is_worn"]), (&Value::from("fallen off"), &Value::from(false)));
+    assert!(verdict["findings"][0]["drop"].as_f64().is_some_and(|drop| drop > 0.25), "{verdict}");
 }
 
 #[test]

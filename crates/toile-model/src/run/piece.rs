@@ -7,20 +7,20 @@ use glam::Vec3;
 use toile_scene::{Cloth, Scene};
 
 /// A garment or a sheet, meshed, with the numbers of its steps.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Piece {
     /// Name of the garment or sheet.
     pub name: String,
     /// The garment before it is sewn; `None` for a sheet.
     pub open: Option<Open>,
-    /// The sheet, or the sewn garment.
+    /// The sheet, or the garment once it is sewn; see [`Piece::leave_open`].
     pub model: Model,
     /// The numbers of a step of the run.
     pub step: StepSettings,
 }
 
 /// A garment before it is sewn.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Open {
     /// Its panels.
     pub model: Model,
@@ -28,6 +28,18 @@ pub struct Open {
     pub merge: Merge,
     /// The numbers of a step while it is sewn.
     pub sewing: StepSettings,
+    /// The numbers of a step of the run, where it is left open.
+    step: StepSettings,
+    /// What would have been worn, where it is left open.
+    sewn: Option<Box<Sewn>>,
+}
+
+/// What is worn once a garment is sewn.
+#[derive(Clone, Debug)]
+struct Sewn {
+    model: Model,
+    merge: Merge,
+    step: StepSettings,
 }
 
 impl Piece {
@@ -45,14 +57,37 @@ impl Piece {
             }
             Cloth::Garment(garment) => {
                 let open = Model::from_garment(garment, settings)?;
-                let sewing = StepSettings::of_cloth(&garment.name, settings, &open)?.sewing();
+                let open_step = StepSettings::of_cloth(&garment.name, settings, &open)?;
                 let (model, merge) = open.sewn();
                 let step = StepSettings::of_cloth(&garment.name, settings, &model)?;
-                let open = Open { model: open, merge, sewing };
+                let open = Open { model: open, merge, sewing: open_step.sewing(), step: open_step, sewn: None };
                 Ok(Self { name: garment.name.clone(), open: Some(open), model, step })
             }
         };
         scene.cloths.iter().map(piece).collect()
+    }
+
+    /// Has the garment be worn as its open model, whose seams are still drawn together, or as the sewn one again. Seams that stayed far open
+    /// are not merged: what lies between them would end on the wrong side. A sheet has no seams and stays as it is.
+    pub fn leave_open(&mut self, is_left: bool) {
+        let Some(open) = &mut self.open else { return };
+        open.sewn = match (open.sewn.take(), is_left) {
+            (None, true) => Some(Box::new(Sewn {
+                model: std::mem::replace(&mut self.model, open.model.clone()),
+                merge: std::mem::replace(&mut open.merge, Merge::identity(open.model.particle_count())),
+                step: std::mem::replace(&mut self.step, open.step.clone()),
+            })),
+            (Some(sewn), false) => {
+                (self.model, open.merge, self.step) = (sewn.model, sewn.merge, sewn.step);
+                None
+            }
+            (as_it_is, _) => as_it_is,
+        };
+    }
+
+    /// Whether the garment is worn as its open model.
+    pub fn is_left_open(&self) -> bool {
+        self.open.as_ref().is_some_and(|open| open.sewn.is_some())
     }
 
     /// The numbers of a step in a stage of the dressing.
