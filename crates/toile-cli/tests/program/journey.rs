@@ -388,6 +388,27 @@ fn a_garment_that_is_too_wide_falls_off_and_is_written_all_the_same() {
     assert!(verdict["findings"][0]["drop"].as_f64().is_some_and(|drop| drop > 0.25), "{verdict}");
 }
 
+/// A panel in no stitch falls, and the skirt stays on.
+#[test]
+fn a_loose_panel_is_told_by_its_name() {
+    let journey = Journey::new();
+    let mut skirt = json(&fs::read_to_string(fixture("garments/skirt.json")).expect("the skirt"));
+    let square = [[0.0, 0.0], [18.0, 0.0], [18.0, 18.0], [0.0, 18.0]];
+    let edges: Vec<Value> = (0..4).map(|k| serde_json::json!({ "endpoints": [k, (k + 1) % 4] })).collect();
+    skirt["pattern"]["panels"]["pocket"] = serde_json::json!({ "vertices": square, "edges": edges, "translation": [0.0, 80.0, 40.0], "rotation": [0.0, 0.0, 0.0] });
+    fs::write(journey.folder.path().join("pocket.json"), skirt.to_string()).expect("written");
+    let options = ["--garment", "pocket.json", "--spacing", "6cm", "--texel", "1cm", "--json"];
+    let output = journey.run(&[&["dress"], &options[..]].concat());
+    assert_eq!(output.status.code(), Some(3), "{}", String::from_utf8_lossy(&output.stderr));
+    let verdict = &journey.metrics("out")["cloths"][0]["verdict"];
+    let findings = list(&verdict["findings"]);
+    assert_eq!(findings.len(), 1, "the skirt is on: {verdict}");
+    assert_eq!(findings[0]["panels"], serde_json::json!(["pocket"]), "{verdict}");
+    let openings: Vec<&Value> = list(&verdict["openings"]).iter().map(|opening| &opening["limb_count"]).collect();
+    assert_eq!(openings.len(), 2, "waist and hem: {verdict}");
+    assert!(openings.iter().all(|count| count.as_u64().is_some_and(|count| count > 0)), "{verdict}");
+}
+
 #[test]
 fn an_outer_garment_lies_over_an_inner_one_by_the_reference_too() {
     let journey = Journey::new();
