@@ -6,6 +6,7 @@
 mod cloth;
 mod csr;
 mod error;
+mod fit;
 mod mesh;
 mod run;
 mod union_find;
@@ -15,6 +16,9 @@ pub use cloth::long_limits::{STRAND_PARTICLES_MAX, path_chord};
 pub use cloth::model::{Attachment, Hold, Limit, Link, Merge, Model, PanelMesh, SeamPair, Spring, SpringKind, Strand};
 pub use csr::Csr;
 pub use error::ModelError;
+pub use fit::axis::Axis;
+pub use fit::finding::{Finding, InBody};
+pub use fit::{Fit, FitError, FitOptions};
 pub use mesh::geometry::NO_CORNER;
 pub use mesh::inside::Inside;
 pub use run::dressing::{Dressing, DressingError, DressingStage};

@@ -1,6 +1,6 @@
 //! A triangle mesh.
 
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 use std::f64::consts::{PI, TAU};
 
 /// A triangle mesh with one normal per vertex.
@@ -70,6 +70,16 @@ impl Mesh {
     pub fn bounds(&self) -> Option<[Vec3; 2]> {
         let first = *self.positions.first()?;
         Some(self.positions.iter().fold([first, first], |[low, high], p| [low.min(*p), high.max(*p)]))
+    }
+
+    /// The mesh turned about the origin.
+    pub fn turned(&self, turn: DMat3) -> Self {
+        let turned = |v: &Vec3| (turn * v.as_dvec3()).as_vec3();
+        Self {
+            positions: self.positions.iter().map(turned).collect(),
+            normals: self.normals.iter().map(turned).collect(),
+            triangles: self.triangles.clone(),
+        }
     }
 
     /// Enclosed volume [m³] by the divergence theorem; negative when the triangles face inward.

@@ -2,12 +2,13 @@
 
 use super::regions::Regions;
 use super::walker::Walker;
+use crate::fit;
 use crate::look::State;
 use crate::metrics::{is_far, max_and_p99, reach};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use toile::model::{Model, Status};
-use toile::scene::{Mesh, Settings};
+use toile::model::{Fit, Model, Status};
+use toile::scene::Mesh;
 use toile_reference::ExactDistance;
 
 /// What is measured of a walk. The names are stable.
@@ -15,6 +16,8 @@ use toile_reference::ExactDistance;
 pub struct WalkMetrics {
     adapter: String,
     garments: Vec<String>,
+    /// What was found before sewing, and what was mended.
+    fit: Vec<String>,
     particle_count: u32,
     steps_per_frame: u32,
     frame_rate: f64,
@@ -159,13 +162,7 @@ impl FrameRow {
 
 impl WalkMetrics {
     /// The metrics of a walk from its rows, and the part of a step that goes to the bodies [1].
-    pub fn new(
-        adapter: &str,
-        settings: &Settings,
-        walkers: &[Walker],
-        collision_part: f64,
-        frames: Vec<FrameRow>,
-    ) -> Self {
+    pub fn new(adapter: &str, fit: &Fit, walkers: &[Walker], collision_part: f64, frames: Vec<FrameRow>) -> Self {
         let most = |value: fn(&FrameRow) -> f64| frames.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
         let median = |value: fn(&FrameRow) -> f64| {
             let mut values: Vec<f64> = frames.iter().map(value).collect();
@@ -176,11 +173,13 @@ impl WalkMetrics {
         for (region, count) in frames.iter().flat_map(|row| &row.false_contacts_by_region) {
             *regions.entry(region.clone()).or_default() += count;
         }
+        let settings = &fit.scene.settings;
         let threshold = settings.fabric.threshold;
         let fractions: f64 = frames.iter().map(|row| row.false_contact_fraction).sum();
         Self {
             adapter: adapter.to_owned(),
             garments: walkers.iter().map(|walker| walker.name.clone()).collect(),
+            fit: fit::sentences(fit),
             particle_count: walkers.iter().map(|walker| walker.particle_count).sum(),
             steps_per_frame: walkers.first().map_or(0, |walker| walker.steps_per_frame),
             frame_rate: settings.frame_rate,
