@@ -82,6 +82,7 @@ const SPARED: &[(&str, Kind, &[&str])] = &[
         Kind::Border,
         &["depth_front <= 1.0", "depth_back <= 1.0"],
     ),
+    ("the halves of the way are looked at after it", Kind::Constant, &["sight_from(next, next, 1e9)"]),
     ("along another axis the place is inside too", Kind::Constant, &["before % 3u"]),
     ("before the first layer nothing is read", Kind::Constant, &["var below = vec2<u32>(1u)"]),
     ("where nothing moves, the lag takes nothing of it", Kind::Constant, &["var drift = vec3<f32>(1e9)"]),
