@@ -3,7 +3,7 @@
 use crate::support::{advance, gpu, start, walking, woman};
 use std::collections::VecDeque;
 use toile::{Error, Simulation, Stage};
-use toile_model::Finding;
+use toile_model::Flaw;
 
 /// Frames that a host has under way, as a swap chain has.
 const FRAMES_UNDER_WAY: usize = 2;
@@ -107,7 +107,7 @@ fn a_garment_whose_seams_stay_open_is_told_and_goes_on() {
     drive(&mut simulation, Stage::Dressed);
     let verdicts = simulation.verdicts(&gpu().queue).expect("a device");
     let [verdict] = verdicts.as_slice() else { panic!("{verdicts:?}") };
-    let Some(Finding::SeamOpen { seam, gap }) = verdict.findings.first() else { panic!("{verdict:?}") };
+    let Some(Flaw::SeamOpen { seam, gap }) = verdict.findings.first() else { panic!("{verdict:?}") };
     assert!(seam.contains(" to ") && *gap > 1.0, "{seam}: {gap} m");
     assert!(!verdict.is_worn() && verdict.openings.is_empty(), "{verdict:?}");
     let saved = simulation.save(&gpu().queue).expect("a device");

@@ -10,6 +10,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::DVec3;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
+use toile::model::Axis;
 use toile::scene::{Polish, Settings};
 
 /// What a script hears.
@@ -57,6 +58,12 @@ pub struct Outfit {
     /// Unit of the body file.
     #[arg(long, value_enum, default_value_t = Unit::M, requires = "body")]
     pub body_units: Unit,
+    /// Axis of the body file that is up: x, y, z, -x, -y or -z; without it, found where the body is a person who stands, else y.
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, requires = "body")]
+    pub up: Option<Axis>,
+    /// Axis that the body faces once it stands upright: x, z, -x or -z; without it, found where feet and trunk tell, else z.
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, requires = "body", value_parser = parse_facing)]
+    pub facing: Option<Axis>,
     /// Clip of an animated body file.
     #[arg(long, value_name = "NAME")]
     pub clip: Option<String>,
@@ -184,8 +191,8 @@ pub struct PlanOf {
 }
 
 /// Names of the options of [`Outfit`], which say nothing about a scene file.
-const OUTFIT_OPTIONS: [&str; 9] =
-    ["body", "body_units", "clip", "time", "garment", "spacing", "texel", "fabric", "polish"];
+const OUTFIT_OPTIONS: [&str; 11] =
+    ["body", "body_units", "up", "facing", "clip", "time", "garment", "spacing", "texel", "fabric", "polish"];
 
 /// `toile adapters`.
 #[derive(Args, Debug)]
@@ -229,6 +236,11 @@ fn parse_spacing(text: &str) -> Result<f64, String> {
 
 fn parse_texel(text: &str) -> Result<f64, String> {
     parse_length(text, Settings::TEXELS)
+}
+
+fn parse_facing(text: &str) -> Result<Axis, String> {
+    let facing: Axis = text.parse()?;
+    if facing.is_parallel_to(Axis::Y) { Err("it must be x, z, -x or -z".to_owned()) } else { Ok(facing) }
 }
 
 fn parse_velocity(text: &str) -> Result<DVec3, String> {

@@ -7,8 +7,7 @@ use crate::reference_run::ReferenceRun;
 use anyhow::{Context, Result};
 use std::collections::BTreeMap;
 use toile::gpu::{Kernel, PassTime, Timer};
-use toile::model::{Dressing, Status, Verdict};
-use toile::scene::Scene;
+use toile::model::{Dressing, Fit, Status, Verdict};
 use toile::{Cloth, Simulation, Stage};
 
 /// Steps that are timed pass by pass at the end of a run.
@@ -45,10 +44,10 @@ impl Computer {
     }
 
     /// A scene at its start.
-    pub fn start(&self, scene: &Scene) -> Result<Engine<'_>> {
+    pub fn start(&self, fit: &Fit) -> Result<Engine<'_>> {
         Ok(match self {
-            Computer::Gpu(gpu) => Engine::Gpu { gpu, simulation: Box::new(Simulation::new(&gpu.device, scene)?) },
-            Computer::Reference => Engine::Reference(Box::new(ReferenceRun::new(scene)?)),
+            Computer::Gpu(gpu) => Engine::Gpu { gpu, simulation: Box::new(Simulation::fitted(&gpu.device, fit)?) },
+            Computer::Reference => Engine::Reference(Box::new(ReferenceRun::new(&fit.scene)?)),
         })
     }
 }

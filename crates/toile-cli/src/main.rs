@@ -5,6 +5,7 @@ mod args;
 mod bodies;
 mod commands;
 mod engine;
+mod fit;
 mod interrupt;
 mod look;
 mod mesa_layer;

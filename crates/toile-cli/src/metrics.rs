@@ -22,6 +22,8 @@ pub struct Metrics {
     pub scene: String,
     /// Name of the adapter, or "reference".
     pub adapter: String,
+    /// What was found before sewing, and what was mended.
+    pub fit: Vec<String>,
     /// All cloths together.
     #[serde(flatten)]
     pub whole: Measures,
@@ -45,9 +47,9 @@ pub struct ClothMetrics {
 
 impl Metrics {
     /// The metrics of all cloths of a run.
-    pub fn new(scene: &str, adapter: &str, cloths: Vec<ClothMetrics>) -> Self {
+    pub fn new(scene: &str, adapter: &str, fit: Vec<String>, cloths: Vec<ClothMetrics>) -> Self {
         let whole = cloths.iter().map(|cloth| cloth.measures.clone()).reduce(Measures::with).unwrap_or_default();
-        Self { scene: scene.to_owned(), adapter: adapter.to_owned(), whole, cloths }
+        Self { scene: scene.to_owned(), adapter: adapter.to_owned(), fit, whole, cloths }
     }
 }
 

@@ -4,6 +4,7 @@ use crate::adapter;
 use crate::args::{Backend, Running};
 use crate::bodies::{meshes, moving, shapes};
 use crate::engine::Computer;
+use crate::fit;
 use crate::metrics::{ClothMetrics, Metrics, Surfaces};
 use crate::outcome::Outcome;
 use crate::output::{self, Shown};
@@ -11,23 +12,26 @@ use crate::stdout::print;
 use crate::worn::{self, Worn};
 use anyhow::{Result, bail};
 use toile::files::SceneFile;
+use toile::model::FitOptions;
 use toile::scene::{Cloth, Mesh, Scene};
 
 /// Simulates a scene: garments are dressed one after another, sheets run for a number of frames. Writes the results.
-pub fn simulate(file: &SceneFile, running: &Running) -> Result<Outcome> {
-    let scene = &file.scene;
+pub fn simulate(file: SceneFile, options: &FitOptions, running: &Running) -> Result<Outcome> {
     output::check(&running.out)?;
-    check_bodies(scene, running.place.backend)?;
+    check_bodies(&file.scene, running.place.backend)?;
+    let fit = fit::look(&file.scene, options)?;
+    let scene = &fit.scene;
     if !running.quiet {
         for warning in &file.warnings {
             eprintln!("warning: {warning}");
         }
+        fit::tell(&fit);
     }
     let computer = match running.place.backend {
         Backend::Gpu => Computer::Gpu(adapter::open(&running.place)?),
         Backend::Reference => Computer::Reference,
     };
-    let all = worn::run(file, &computer, running.quiet)?;
+    let all = worn::run(&fit, file.frames, &computer, running.quiet)?;
     let end = end(&all);
     let mut surfaces = Surfaces::new(&scene.bodies, scene.settings.fabric.thickness, end);
     let mut measured = Vec::new();
@@ -37,7 +41,7 @@ pub fn simulate(file: &SceneFile, running: &Running) -> Result<Outcome> {
             surfaces.add_garment(&worn.mesh);
         }
     }
-    let metrics = Metrics::new(&scene.name, computer.name(), measured);
+    let metrics = Metrics::new(&scene.name, computer.name(), fit::sentences(&fit), measured);
     let shapes: Vec<(&str, Mesh)> = shapes(scene).iter().map(|shape| (shape.name(), shape.mesh(end))).collect();
     let moved: Vec<Mesh> = moving(scene).map(|body| body.at(end)).collect();
     let mut bodies: Vec<Shown<'_>> = meshes(scene).chain(&moved).map(|mesh| Shown { name: "body", mesh }).collect();

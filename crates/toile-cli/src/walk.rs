@@ -31,8 +31,8 @@ use std::time::Instant;
 use toile::Simulation;
 use toile::files::{MovingFaces, write_atomically, write_pc2, write_usda};
 use toile::gpu::{Kernel, Timer};
-use toile::model::{Solid, Status, Verdict};
-use toile::scene::{Body, Cloth, Garment, Mesh, MovingMesh, Scene, Settings};
+use toile::model::{Fit, Solid, Status, Verdict};
+use toile::scene::{Cloth, Mesh, MovingMesh, Settings};
 use toile_reference::ExactDistance;
 use walker::Walker;
 
@@ -47,10 +47,8 @@ const KEPT: &str = "interrupted: every frame so far is kept, go on with --resume
 pub struct Walk {
     /// The body and its motion.
     pub body: MovingMesh,
-    /// The same body with the clip in whose first pose it is dressed, if one is named.
-    pub dress_in: Option<MovingMesh>,
-    /// The garments, inner ones first.
-    pub garments: Vec<Garment>,
+    /// The body with its garments, looked at before they are sewn.
+    pub fit: Fit,
     /// How they are simulated, at the frame rate of the walk.
     pub settings: Settings,
     /// Number of frames after the first.
@@ -65,7 +63,8 @@ impl Walk {
     /// All that decides the result, as text: a walk goes on only with the same.
     fn identity(&self, gpu: &Gpu) -> String {
         let mut digest = Digest(DefaultHasher::new());
-        write!(digest, "{:?}", (&self.body, &self.dress_in, &self.garments)).expect("a digest takes every text");
+        write!(digest, "{:?}", (&self.body, &self.fit.dress_in, &self.fit.scene.cloths))
+            .expect("a digest takes every text");
         format!(
             "toile {} on {}\n{:?}\n{} frames, maps kept: {}\nbody and garments {:016x}\n",
             env!("CARGO_PKG_VERSION"),
@@ -79,16 +78,7 @@ impl Walk {
 
     /// The simulation at its start.
     fn simulation(&self, gpu: &Gpu) -> Result<Simulation> {
-        let scene = Scene {
-            name: "walk".to_owned(),
-            cloths: self.garments.iter().cloned().map(Cloth::Garment).collect(),
-            bodies: vec![Body::Moving(self.body.clone())],
-            settings: self.settings.clone(),
-        };
-        Ok(match &self.dress_in {
-            Some(from) => Simulation::dressed_in(&gpu.device, &scene, from)?,
-            None => Simulation::new(&gpu.device, &scene)?,
-        })
+        Ok(Simulation::fitted(&gpu.device, &self.fit)?)
     }
 }
 
@@ -134,7 +124,7 @@ pub fn walk(walk: &Walk, running: &Running) -> Result<Outcome> {
     let collision_part = simulate(walk, &gpu, &mut simulation, &saved, running)?;
     let (rows, verdicts) = (saved.rows(walk.frame_count)?, saved.verdicts()?);
     finish(walk, &walkers, &saved, running)?;
-    let metrics = WalkMetrics::new(&gpu.name, &walk.settings, &walkers, &verdicts, collision_part, rows);
+    let metrics = WalkMetrics::new(&gpu.name, &walk.fit, &walkers, &verdicts, collision_part, rows);
     let text = serde_json::to_string_pretty(&metrics)?;
     write_atomically(&running.out.join("metrics.json"), text.as_bytes())?;
     saved.remove()?;
@@ -150,12 +140,16 @@ pub fn walk(walk: &Walk, running: &Running) -> Result<Outcome> {
 /// Dresses the garments one over the other, says how they are worn, and has the body go over to the start of its walk.
 fn dress(walk: &Walk, gpu: &Gpu, simulation: Simulation, quiet: bool) -> Result<(Simulation, Vec<Verdict>)> {
     let seconds = 1.0 / walk.settings.frame_rate;
-    let mut logs: Vec<Log> = walk.garments.iter().map(|_| Log::default()).collect();
+    let mut logs: Vec<Log> = walk.fit.scene.cloths.iter().map(|_| Log::default()).collect();
     let mut engine = Engine::Gpu { gpu, simulation: Box::new(simulation) };
     worn::dress(&mut engine, &mut logs.iter_mut().collect::<Vec<_>>(), seconds, quiet)?;
     let verdicts = engine.verdicts()?;
-    for (garment, verdict) in walk.garments.iter().zip(&verdicts).filter(|_| !quiet) {
-        outcome::warn(&garment.name, verdict);
+    for (garment, verdict) in walk.fit.scene.cloths.iter().zip(&verdicts).filter(|_| !quiet) {
+        let name = match garment {
+            Cloth::Garment(garment) => &garment.name,
+            Cloth::Sheet(sheet) => &sheet.name,
+        };
+        outcome::warn(name, verdict);
     }
     let Engine::Gpu { mut simulation, .. } = engine else { unreachable!("it was just made") };
     // No time passes: what comes next begins.
@@ -204,7 +198,7 @@ fn simulate(walk: &Walk, gpu: &Gpu, simulation: &mut Simulation, saved: &Saved, 
             row.add(worn.model, &state, &status, &exact, &inner, &body, &regions, thickness, texel);
             let mesh = Mesh { positions: state.positions, normals: state.normals, triangles: worn.model.triangles() };
             points.push(mesh.positions.clone());
-            if points.len() < walk.garments.len() {
+            if points.len() < walk.fit.scene.cloths.len() {
                 inner.push(ExactDistance::new(&mesh));
             }
             cloths.push(mesh);

@@ -8,10 +8,9 @@ use anyhow::{Context, Result};
 use std::collections::BTreeMap;
 use std::time::Instant;
 use toile::Stage;
-use toile::files::SceneFile;
 use toile::gpu::PassTime;
-use toile::model::{DressingStage, Model, Status, StepSettings, Verdict};
-use toile::scene::{Cloth, Mesh};
+use toile::model::{DressingStage, Fit, Model, Status, StepSettings, Verdict};
+use toile::scene::{Cloth, Mesh, Scene};
 
 /// A cloth that has been simulated.
 pub struct Worn {
@@ -68,20 +67,21 @@ impl Log {
 }
 
 /// Dresses the garments of a scene one over the other; where it has sheets, everything then runs for its frames.
-pub fn run(file: &SceneFile, computer: &Computer, quiet: bool) -> Result<Vec<Worn>> {
-    let mut engine = computer.start(&file.scene)?;
-    let seconds = 1.0 / file.scene.settings.frame_rate;
-    let mut logs: Vec<Log> = file.scene.cloths.iter().map(|_| Log::default()).collect();
-    let of_garments = file.scene.cloths.iter().zip(&mut logs).filter(|(cloth, _)| matches!(cloth, Cloth::Garment(_)));
+pub fn run(fit: &Fit, frames: u32, computer: &Computer, quiet: bool) -> Result<Vec<Worn>> {
+    let scene = &fit.scene;
+    let mut engine = computer.start(fit)?;
+    let seconds = 1.0 / scene.settings.frame_rate;
+    let mut logs: Vec<Log> = scene.cloths.iter().map(|_| Log::default()).collect();
+    let of_garments = scene.cloths.iter().zip(&mut logs).filter(|(cloth, _)| matches!(cloth, Cloth::Garment(_)));
     dress(&mut engine, &mut of_garments.map(|(_, log)| log).collect::<Vec<_>>(), seconds, quiet)?;
     let mut dressed = engine.dressings().into_iter().zip(engine.verdicts()?);
-    if file.scene.cloths.iter().any(|cloth| matches!(cloth, Cloth::Sheet(_))) {
-        run_frames(&mut engine, &mut logs, file, seconds, quiet)?;
+    if scene.cloths.iter().any(|cloth| matches!(cloth, Cloth::Sheet(_))) {
+        run_frames(&mut engine, &mut logs, scene, frames, seconds, quiet)?;
     }
     let (states, bytes) = (engine.states()?, engine.bytes());
     let mut worn = Vec::new();
     for ((look, State { positions, normals, touching }), log) in engine.cloths()?.into_iter().zip(states).zip(logs) {
-        let is_garment = matches!(file.scene.cloths[worn.len()], Cloth::Garment(_));
+        let is_garment = matches!(scene.cloths[worn.len()], Cloth::Garment(_));
         let (dressing, verdict) = if is_garment { dressed.next() } else { None }.unzip();
         if let Some(verdict) = verdict.as_ref().filter(|_| !quiet) {
             outcome::warn(look.name, verdict);
@@ -157,11 +157,18 @@ fn stage_line(stage: Stage, look: &Look<'_>) -> String {
 }
 
 /// Runs all cloths together for the frames of the scene.
-fn run_frames(engine: &mut Engine<'_>, logs: &mut [Log], file: &SceneFile, seconds: f64, quiet: bool) -> Result<()> {
-    let progress = Progress::new(&file.scene.name, quiet);
+fn run_frames(
+    engine: &mut Engine<'_>,
+    logs: &mut [Log],
+    scene: &Scene,
+    count: u32,
+    seconds: f64,
+    quiet: bool,
+) -> Result<()> {
+    let progress = Progress::new(&scene.name, quiet);
     logs.iter_mut().for_each(|log| log.statuses.clear());
     let mut frame = 0;
-    while frame < file.frames {
+    while frame < count {
         let start = Instant::now();
         if engine.frame(seconds)? == 0 {
             continue;
@@ -174,7 +181,7 @@ fn run_frames(engine: &mut Engine<'_>, logs: &mut [Log], file: &SceneFile, secon
             log.statuses.push(look.status);
         }
         let elongation = cloths.iter().map(|look| look.status.elongation_max).fold(0.0, f32::max);
-        progress.say(format!("frame {frame} of {}, elongation {elongation:.3}", file.frames));
+        progress.say(format!("frame {frame} of {count}, elongation {elongation:.3}"));
     }
     progress.finish(format!("{frame} frames"));
     Ok(())

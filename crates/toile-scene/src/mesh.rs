@@ -1,6 +1,6 @@
 //! A triangle mesh.
 
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 use std::f64::consts::{PI, TAU};
 
 /// A triangle mesh with one normal per vertex.
@@ -79,6 +79,16 @@ impl Mesh {
             0.5 * (b - a).cross(c - a).length()
         };
         self.triangles.iter().map(area).sum()
+    }
+
+    /// The mesh turned about the origin.
+    pub fn turned(&self, turn: DMat3) -> Self {
+        let turned = |v: &Vec3| (turn * v.as_dvec3()).as_vec3();
+        Self {
+            positions: self.positions.iter().map(turned).collect(),
+            normals: self.normals.iter().map(turned).collect(),
+            triangles: self.triangles.clone(),
+        }
     }
 
     /// Enclosed volume [m³] by the divergence theorem; negative when the triangles face inward.

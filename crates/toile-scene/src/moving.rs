@@ -2,7 +2,7 @@
 
 use crate::clip::Moment;
 use crate::{Mesh, Rig, RigidKey, Skin};
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DQuat, DVec3, Vec3};
 
 /// A mesh that moves.
 #[derive(Clone, Debug)]
@@ -67,6 +67,26 @@ impl MovingMesh {
         Some(resting)
     }
 
+    /// The same mesh as it stands still at a time of its motion [s]; `None` for a sequence, which goes over to no other pose.
+    pub fn held(&self, time: f64) -> Option<Self> {
+        let Motion::Skinned { skin, rig } = &self.motion else { return None };
+        let motion = Motion::Skinned { skin: skin.clone(), rig: rig.held(time) };
+        let mut held = Self { mesh: self.mesh.clone(), motion };
+        held.mesh = held.at(0.0);
+        Some(held)
+    }
+
+    /// The mesh and its motion turned about the origin.
+    pub fn turned(&self, turn: DMat3) -> Self {
+        let motion = match &self.motion {
+            Motion::Skinned { skin, rig } => {
+                Motion::Skinned { skin: skin.clone(), rig: rig.turned(DQuat::from_mat3(&turn)) }
+            }
+            Motion::Sequence(sequence) => Motion::Sequence(sequence.turned(turn)),
+        };
+        Self { mesh: self.mesh.turned(turn), motion }
+    }
+
     /// The mesh at a time [s], computed in f64: every vertex, so for pictures and exact measurement, not for each frame.
     pub fn at(&self, time: f64) -> Mesh {
         let [positions, normals] = match &self.motion {
@@ -99,6 +119,13 @@ impl MeshSequence {
     /// Time of the last frame [s]; the first is at 0.
     pub fn duration(&self) -> f64 {
         self.frames.len().saturating_sub(1) as f64 / self.frame_rate
+    }
+
+    /// The frames turned about the origin.
+    fn turned(&self, turn: DMat3) -> Self {
+        let turned = |v: &Vec3| (turn * v.as_dvec3()).as_vec3();
+        let frame = |parts: &[Vec<Vec3>; 2]| parts.each_ref().map(|part| part.iter().map(turned).collect());
+        Self { frame_rate: self.frame_rate, frames: self.frames.iter().map(frame).collect() }
     }
 
     /// Positions [m] and unit normals at a time [s]; `None` without a frame.

@@ -220,6 +220,39 @@ impl Rig {
         }))
     }
 
+    /// The same rig without its clip, whose joints stand where the clip puts them at a time [s].
+    pub fn held(&self, time: f64) -> Self {
+        let Parts { nodes, order, joints, metres_per_unit, .. } = self.0.as_ref();
+        let transforms = self.0.local_transforms(self.clip_time(time));
+        let held = nodes.iter().zip(transforms).map(|(node, transform)| RigNode { parent: node.parent, transform });
+        Self(Arc::new(Parts {
+            nodes: held.collect(),
+            order: order.clone(),
+            joints: joints.clone(),
+            morph_weights: self.morph_weights(time),
+            clip: None,
+            metres_per_unit: *metres_per_unit,
+            is_closed: false,
+        }))
+    }
+
+    /// The same rig turned about the origin: a further node carries all that stood in the world.
+    pub fn turned(&self, rotation: DQuat) -> Self {
+        let Parts { nodes, order, joints, morph_weights, clip, metres_per_unit, is_closed } = self.0.as_ref();
+        let carrier = nodes.len();
+        let carried = |node: &RigNode| RigNode { parent: node.parent.or(Some(carrier)), transform: node.transform };
+        let transform = LocalTransform::Parts { translation: DVec3::ZERO, rotation, scale: DVec3::ONE };
+        Self(Arc::new(Parts {
+            nodes: nodes.iter().map(carried).chain([RigNode { parent: None, transform }]).collect(),
+            order: [carrier].into_iter().chain(order.iter().copied()).collect(),
+            joints: joints.clone(),
+            morph_weights: morph_weights.clone(),
+            clip: clip.clone(),
+            metres_per_unit: *metres_per_unit,
+            is_closed: *is_closed,
+        }))
+    }
+
     /// Where the joints stand at a time [s], rounded to f32. A closed clip repeats; any other stands still after its end.
     pub fn pose(&self, time: f64) -> Pose {
         let rows = |matrix: &DMat4| [0, 1, 2].map(|row| matrix.row(row).as_vec4());

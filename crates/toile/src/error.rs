@@ -9,6 +9,9 @@ pub enum Error {
     /// The device refuses or is lost.
     #[error(transparent)]
     Gpu(#[from] toile_gpu::GpuError),
+    /// What stands in the way of sewing cannot be mended.
+    #[error(transparent)]
+    Fit(#[from] toile_model::FitError),
     /// The cloth cannot be meshed.
     #[error(transparent)]
     Model(#[from] toile_model::ModelError),

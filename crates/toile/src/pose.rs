@@ -1,28 +1,22 @@
-//! In which pose a body is dressed, and its way from there to the start of its motion.
+//! The way of a body from the pose that it is dressed in to the start of its motion.
 
-use toile_model::{Inside, Model};
-use toile_scene::{Mesh, MovingMesh};
+use toile_model::Fit;
+use toile_scene::{Body, MovingMesh, Scene};
 
 /// Time in which a dressed body goes over to the start of its motion [s].
-pub(crate) const WAY_SECONDS: f64 = 1.0;
+const WAY_SECONDS: f64 = 1.0;
 
-/// The way from the pose without any clip to the start of the motion, where that pose stands clear of the panels and the first pose of
-/// the motion does not; `None` where the body is dressed as its motion begins. Patterns are placed around a body that stands still: a leg
-/// that strides would stand in front of them, and the garment would be sewn behind it.
-pub(crate) fn way_from_rest<'a>(
-    body: &MovingMesh,
-    open: impl Iterator<Item = &'a Model> + Clone,
-) -> Option<MovingMesh> {
-    let resting = body.at_rest()?;
-    let first = inside_count(&body.mesh, open.clone());
-    if first == 0 || inside_count(&resting.mesh, open) >= first {
-        return None;
-    }
-    MovingMesh::transition(&resting, body, WAY_SECONDS)
+/// The way from the pose that garments are sewn in to the start of the motion; `None` where that is the first pose, and where the two do
+/// not move the same joints.
+pub(crate) fn way(fit: &Fit) -> Option<MovingMesh> {
+    MovingMesh::transition(fit.dress_in.as_ref()?, moving_body(&fit.scene)?, WAY_SECONDS)
 }
 
-/// Particles of the panels, as they are placed, that are inside a body.
-fn inside_count<'a>(body: &Mesh, open: impl Iterator<Item = &'a Model>) -> usize {
-    let inside = Inside::of(body);
-    open.flat_map(|model| &model.positions).filter(|place| inside.holds(place.as_dvec3())).count()
+/// The only mesh of a scene that moves.
+fn moving_body(scene: &Scene) -> Option<&MovingMesh> {
+    let mut moving = scene.bodies.iter().filter_map(|body| match body {
+        Body::Moving(moving) => Some(moving),
+        Body::Mesh(_) | Body::Shape(_) => None,
+    });
+    moving.next().filter(|_| moving.next().is_none())
 }

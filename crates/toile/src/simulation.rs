@@ -10,7 +10,9 @@ use crate::{Cloth, Colliders, Error, pose};
 use glam::Vec3;
 use std::sync::Arc;
 use toile_gpu::{BodyMaps, MapSpace, Surface, readback};
-use toile_model::{Dressing, DressingStage, Judged, MapBox, Model, Piece, Solid, StepSettings, Verdict};
+use toile_model::{
+    Dressing, DressingStage, Finding, Fit, FitOptions, Judged, MapBox, Model, Piece, Solid, StepSettings, Verdict,
+};
 use toile_scene::{Body, Mesh, MovingMesh, Scene, Settings};
 
 /// Time that garments have to hang quietly once the body has gone over to the start of its motion [s].
@@ -51,6 +53,8 @@ pub struct Simulation {
     pub(crate) bodies: Bodies,
     /// The way of the body from the pose that garments are sewn in to the start of its motion.
     pub(crate) way: Option<MovingMesh>,
+    /// What was found before sewing.
+    findings: Vec<Finding>,
     /// Where the maps of the run stand, if its bodies decide that.
     boxes: Option<Boxes>,
     pub(crate) pieces: Vec<Piece>,
@@ -74,21 +78,15 @@ pub(crate) enum Phase {
 }
 
 impl Simulation {
-    /// A scene at its start. A body that moves is dressed in the first pose of its motion, or without any clip where it then stands clear of
-    /// the panels and the first pose does not; it goes over to its motion in a second.
+    /// A scene at its start. Before anything is sewn, [`Fit`] looks at how body and panels stand, and mends what it can; see
+    /// [`Simulation::findings`]. A body that moves is dressed in the first of these poses that stands clear of the panels, or else in the clearest:
+    /// the first of its motion, that without any clip, those of its clip; it goes over to its motion in a second.
     ///
     /// # Errors
-    /// [`Error::Model`] when a garment cannot be meshed or a frame would take too many steps, [`Error::Body`] when a body
-    /// leads to no place. What does not fit the device is told by [`Simulation::advance`].
+    /// [`Error::Fit`] when what stands in the way of sewing cannot be mended, [`Error::Model`] when a garment cannot be meshed or a frame would take
+    /// too many steps, [`Error::Body`] when a body leads to no place. What does not fit the device is told by [`Simulation::advance`].
     pub fn new(device: &wgpu::Device, scene: &Scene) -> Result<Self, Error> {
-        let pieces = Piece::all(scene)?;
-        let way = match moving_body(scene) {
-            Some(body) => {
-                pose::way_from_rest(body, pieces.iter().filter_map(|piece| piece.open.as_ref().map(|open| &open.model)))
-            }
-            None => None,
-        };
-        Self::with_pieces(device, scene, pieces, way)
+        Self::fitted(device, &Fit::new(scene, &FitOptions::default())?)
     }
 
     /// A scene whose garments are sewn in the first pose of `from`: the same body with another clip.
@@ -96,17 +94,21 @@ impl Simulation {
     /// # Errors
     /// [`Error::Pose`] when the scene has no such body, and as [`Simulation::new`].
     pub fn dressed_in(device: &wgpu::Device, scene: &Scene, from: &MovingMesh) -> Result<Self, Error> {
-        let body = moving_body(scene).ok_or(Error::Pose)?;
-        let way = MovingMesh::transition(from, body, pose::WAY_SECONDS).ok_or(Error::Pose)?;
-        Self::with_pieces(device, scene, Piece::all(scene)?, Some(way))
+        let options = FitOptions { dress_in: Some(from.clone()), ..FitOptions::default() };
+        Self::fitted(device, &Fit::new(scene, &options)?)
     }
 
-    fn with_pieces(
-        device: &wgpu::Device,
-        scene: &Scene,
-        pieces: Vec<Piece>,
-        way: Option<MovingMesh>,
-    ) -> Result<Self, Error> {
+    /// A scene that has been looked at.
+    ///
+    /// # Errors
+    /// [`Error::Pose`] when the pose to dress in is not one of the body that moves, and otherwise as [`Simulation::new`].
+    pub fn fitted(device: &wgpu::Device, fit: &Fit) -> Result<Self, Error> {
+        let scene = &fit.scene;
+        let way = pose::way(fit);
+        if fit.dress_in.is_some() && way.is_none() {
+            return Err(Error::Pose);
+        }
+        let pieces = Piece::all(scene)?;
         let mut bodies = Bodies::default();
         for body in &scene.bodies {
             match body {
@@ -125,6 +127,7 @@ impl Simulation {
             phase: Phase::Dressing(Box::default()),
             settings,
             bodies,
+            findings: fit.findings.clone(),
             pieces,
         };
         if !simulation.bodies.moving.is_empty() {
@@ -438,6 +441,11 @@ impl Simulation {
         Ok(u64::from(count) * space.bytes())
     }
 
+    /// What was found before sewing, and what was mended.
+    pub fn findings(&self) -> &[Finding] {
+        &self.findings
+    }
+
     /// The cloths that are on the device, from the inside out: while garments are dressed those that are, and the one that is being dressed.
     pub fn cloths(&self) -> impl Iterator<Item = Worn<'_>> {
         let cloths: Vec<(&Cloth, DressingStage)> = match &self.phase {
@@ -550,15 +558,6 @@ impl Simulation {
 /// Frames from the pose that garments are sewn in to the start of the motion.
 fn way_frames(way: &MovingMesh, frame: f64) -> u64 {
     ((way.duration() + WAITING_SECONDS) / frame).ceil() as u64
-}
-
-/// The only mesh of a scene that moves.
-fn moving_body(scene: &Scene) -> Option<&MovingMesh> {
-    let mut moving = scene.bodies.iter().filter_map(|body| match body {
-        Body::Moving(moving) => Some(moving),
-        Body::Mesh(_) | Body::Shape(_) => None,
-    });
-    moving.next().filter(|_| moving.next().is_none())
 }
 
 fn bounds_of(meshes: &[Mesh]) -> Vec<[Vec3; 2]> {

@@ -8,5 +8,5 @@ use anyhow::Result;
 
 /// Dresses the outfit that the options name.
 pub fn run(arguments: &Dress) -> Result<Outcome> {
-    simulate(&outfit::read(&arguments.outfit)?, &arguments.running)
+    simulate(outfit::read(&arguments.outfit)?, &outfit::fit_options(&arguments.outfit), &arguments.running)
 }

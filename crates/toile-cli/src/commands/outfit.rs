@@ -4,6 +4,7 @@ use crate::args::Outfit;
 use anyhow::{Context, Result};
 use std::path::Path;
 use toile::files::{self, BodyOptions, SceneFile};
+use toile::model::FitOptions;
 use toile::scene::{Body, Cloth, Fabric, Garment, MovingMesh, Scene, Settings, VelocityModification};
 
 /// The built-in body and the pose it is dressed in.
@@ -58,6 +59,11 @@ pub fn settings(outfit: &Outfit) -> Result<Settings> {
     let default = Settings::new(fabric(&outfit.fabric)?);
     let velocity_modification = VelocityModification { polish: outfit.polish, ..default.velocity_modification };
     Ok(Settings { velocity_modification, spacing: outfit.spacing, texel: outfit.texel, ..default })
+}
+
+/// What the user says of how the body stands.
+pub fn fit_options(outfit: &Outfit) -> FitOptions {
+    FitOptions { up: outfit.up, facing: outfit.facing, dress_in: None }
 }
 
 fn options(outfit: &Outfit) -> BodyOptions {

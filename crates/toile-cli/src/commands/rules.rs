@@ -14,6 +14,7 @@ use anyhow::{Context, Result, bail};
 use glam::{DVec3, Vec3};
 use serde::Serialize;
 use toile::files::{SceneFile, read_scene, write_atomically};
+use toile::model::{Fit, FitOptions};
 use toile::model::{Model, Status, StepSettings};
 use toile::scene::{Cloth, Mesh, Rule};
 
@@ -101,7 +102,7 @@ fn try_rule(
     scene.settings.velocity_modification.rule = rule;
     let model = Model::from_sheet(sheet, &scene.settings);
     let step = StepSettings::of_cloth(name, &scene.settings, &model)?;
-    let mut engine = computer.start(&scene)?;
+    let mut engine = computer.start(&Fit::new(&scene, &FitOptions::default())?)?;
     let seconds = 1.0 / scene.settings.frame_rate;
     let mut state = State { positions: model.positions.clone(), ..State::default() };
     let mut last = Status::default();

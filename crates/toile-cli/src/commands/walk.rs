@@ -1,11 +1,14 @@
 //! `toile walk`.
 
 use crate::args::{Outfit, Walk};
+use crate::bodies;
 use crate::commands::outfit;
+use crate::fit;
 use crate::outcome::Outcome;
 use crate::walk;
 use anyhow::{Result, bail};
-use toile::scene::{Settings, Wind};
+use toile::model::FitOptions;
+use toile::scene::{Body, Cloth, Scene, Settings, Wind};
 
 /// Walks the outfit that the options name.
 pub fn run(arguments: &Walk) -> Result<Outcome> {
@@ -34,11 +37,22 @@ pub fn run(arguments: &Walk) -> Result<Outcome> {
     if frame_count == 0 {
         bail!("a walk of {seconds} s at {} frames per second has no frame: give more --seconds", arguments.fps);
     }
+    let options = FitOptions { dress_in, ..outfit::fit_options(outfit) };
+    let scene = Scene {
+        name: "walk".to_owned(),
+        cloths: garments.into_iter().map(Cloth::Garment).collect(),
+        bodies: vec![Body::Moving(body)],
+        settings: settings.clone(),
+    };
+    let fit = fit::look(&scene, &options)?;
+    let Some(body) = bodies::moving(&fit.scene).next().cloned() else { unreachable!("it was just put there") };
+    if !arguments.running.quiet {
+        fit::tell(&fit);
+    }
     walk::walk(
         &walk::Walk {
             body,
-            dress_in,
-            garments,
+            fit,
             settings,
             frame_count,
             precompute_maps: arguments.precompute_maps,

@@ -2,12 +2,13 @@
 
 use super::regions::Regions;
 use super::walker::Walker;
+use crate::fit;
 use crate::look::State;
 use crate::metrics::{Told, is_far, max_and_p99, middles, reach};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use toile::model::{Model, Solid, Status, Verdict, crossed_particles};
-use toile::scene::{Mesh, Settings};
+use toile::model::{Fit, Model, Solid, Status, Verdict, crossed_particles};
+use toile::scene::Mesh;
 use toile_reference::ExactDistance;
 
 /// What is measured of a walk. The names are stable.
@@ -17,6 +18,8 @@ pub struct WalkMetrics {
     garments: Vec<String>,
     /// How each of them is worn before the walk.
     verdicts: Vec<Told>,
+    /// What was found before sewing, and what was mended.
+    fit: Vec<String>,
     particle_count: u32,
     steps_per_frame: u32,
     frame_rate: f64,
@@ -180,7 +183,7 @@ impl WalkMetrics {
     /// The metrics of a walk from its rows, and the part of a step that goes to the bodies [1].
     pub fn new(
         adapter: &str,
-        settings: &Settings,
+        fit: &Fit,
         walkers: &[Walker],
         verdicts: &[Verdict],
         collision_part: f64,
@@ -196,12 +199,14 @@ impl WalkMetrics {
         for (region, count) in frames.iter().flat_map(|row| &row.false_contacts_by_region) {
             *regions.entry(region.clone()).or_default() += count;
         }
+        let settings = &fit.scene.settings;
         let threshold = settings.fabric.threshold;
         let fractions: f64 = frames.iter().map(|row| row.false_contact_fraction).sum();
         Self {
             adapter: adapter.to_owned(),
             garments: walkers.iter().map(|walker| walker.name.clone()).collect(),
             verdicts: walkers.iter().zip(verdicts).map(|(walker, verdict)| Told::new(&walker.name, verdict)).collect(),
+            fit: fit::sentences(fit),
             particle_count: walkers.iter().map(|walker| walker.particle_count).sum(),
             steps_per_frame: walkers.first().map_or(0, |walker| walker.steps_per_frame),
             frame_rate: settings.frame_rate,

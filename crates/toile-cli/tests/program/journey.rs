@@ -544,3 +544,28 @@ fn an_outfit_walks_together() {
     // A header of 32 bytes, and seven frames of three floats for each particle.
     assert_eq!(points("0_skirt.pc2") + points("1_shirt_sleeveless.pc2"), 2 * 32 + 7 * 12 * count);
 }
+
+/// A body that lies is turned, which is told before sewing, and the skirt hangs where it belongs.
+#[test]
+fn a_body_that_lies_is_turned_and_dressed() {
+    let journey = Journey::new();
+    let options = toile::files::BodyOptions { clip: Some("apose_to_walk".to_owned()), ..Default::default() };
+    let path = PathBuf::from(fixture("bodies/walking_woman.glb"));
+    let body = toile::files::read_body(&path, &options).expect("the fixture").mesh;
+    let vertices = body.positions.iter().map(|p| format!("v {} {} {}\n", p.x, -p.z, p.y));
+    let faces = body.triangles.iter().map(|[a, b, c]| format!("f {} {} {}\n", a + 1, b + 1, c + 1));
+    fs::write(journey.folder.path().join("lying.obj"), vertices.chain(faces).collect::<String>()).expect("written");
+    let skirt = fixture("garments/skirt.json");
+    let dress = ["dress", "--body", "lying.obj", "--garment", &skirt, "--spacing", "6cm", "--texel", "2cm"];
+    let output = journey.run(&dress);
+    let said = String::from_utf8(output.stderr).expect("UTF-8 text");
+    let sentence = "turned the body by -90 degrees about x: +z was up (--up overrules it)";
+    assert_eq!((output.status.code(), said.as_str()), (Some(0), format!("note: {sentence}\n").as_str()));
+    let metrics = journey.metrics("out");
+    assert_eq!(metrics["fit"], serde_json::json!([sentence]));
+    let cloth = fs::read_to_string(journey.folder.path().join("out/garment.obj")).expect("written");
+    let heights: Vec<f64> =
+        cloth.lines().filter_map(|line| line.strip_prefix("v ")?.split(' ').nth(1)?.parse().ok()).collect();
+    let [low, high] = [heights.iter().copied().fold(9.0, f64::min), heights.iter().copied().fold(0.0, f64::max)];
+    assert!(0.3 < low && 0.85 < high && high < 1.2, "from {low} to {high} m it hangs from her waist");
+}

@@ -1,7 +1,7 @@
 //! How a garment is worn, as a person would judge it: whether it is on, and what is wrong where it is not.
 
 mod crossed;
-mod finding;
+mod flaw;
 mod girth;
 mod opening;
 mod parts;
@@ -9,7 +9,7 @@ mod place;
 mod solid;
 
 pub use crossed::crossed_particles;
-pub use finding::Finding;
+pub use flaw::Flaw;
 pub use opening::Opening;
 pub use place::Place;
 pub use solid::Solid;
@@ -40,7 +40,7 @@ const ALL_ABOVE: f64 = 0.05;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
     /// What is wrong, the worst first; empty when the garment is on.
-    pub findings: Vec<Finding>,
+    pub findings: Vec<Flaw>,
     /// Its openings; none while its seams are open.
     pub openings: Vec<Opening>,
     /// Particles on the wrong side of the body, see [`crossed_particles`].
@@ -74,7 +74,7 @@ impl Verdict {
         let panels = Panels::of(model);
         let mut findings = Vec::new();
         let open = model.widest_seam(positions).filter(|(_, gap)| *gap > SEAM_GAP);
-        findings.extend(open.map(|(seam, gap)| Finding::SeamOpen { seam: seam.to_owned(), gap }));
+        findings.extend(open.map(|(seam, gap)| Flaw::SeamOpen { seam: seam.to_owned(), gap }));
         let mut staying: Vec<u32> = Vec::new();
         let mut openings = Vec::new();
         let mut empty = Vec::new();
@@ -82,7 +82,7 @@ impl Verdict {
             let drop = top(&part, &model.positions) - top(&part, positions);
             let sinking = -mean(&part, velocities).y;
             if drop.abs() > WAY_OFF || sinking > FALLING_SPEED {
-                findings.push(Finding::FallenOff { panels: panels.all(&part.particles), drop });
+                findings.push(Flaw::FallenOff { panels: panels.all(&part.particles), drop });
                 continue;
             }
             staying.extend(&part.particles);
@@ -92,9 +92,9 @@ impl Verdict {
                 openings.extend(own);
             }
         }
-        findings.extend(empty.into_iter().map(|opening| Finding::OpeningEmpty { opening }));
+        findings.extend(empty.into_iter().map(|opening| Flaw::OpeningEmpty { opening }));
         let (crossed, depth) = crossed_particles(model, positions, body);
-        findings.extend(panels.place(&crossed, positions).map(|place| Finding::Caught {
+        findings.extend(panels.place(&crossed, positions).map(|place| Flaw::Caught {
             particle_count: crossed.len() as u32,
             depth: depth as f32,
             place,
@@ -113,12 +113,12 @@ impl Verdict {
 
     /// Whether it is on, though it may be too tight.
     pub fn is_worn(&self) -> bool {
-        self.findings.iter().all(|finding| matches!(finding, Finding::TooTight { .. }))
+        self.findings.iter().all(|finding| matches!(finding, Flaw::TooTight { .. }))
     }
 
     /// The verdict in a word or three: "on", or that of the worst finding.
     pub fn word(&self) -> &'static str {
-        self.findings.first().map_or("on", Finding::word)
+        self.findings.first().map_or("on", Flaw::word)
     }
 }
 
@@ -138,17 +138,17 @@ fn is_calm(model: &Model, particles: &[u32], velocities: &[Vec3]) -> bool {
     energy <= sum(&|particle| model.masses[particle]) * REST_SPEED * REST_SPEED
 }
 
-fn not_at_rest(panels: &Panels<'_>, particles: &[u32], positions: &[Vec3], velocities: &[Vec3]) -> Option<Finding> {
+fn not_at_rest(panels: &Panels<'_>, particles: &[u32], positions: &[Vec3], velocities: &[Vec3]) -> Option<Flaw> {
     let speed = |particle: u32| velocities[particle as usize].length();
     let moving: Vec<u32> = particles.iter().copied().filter(|&particle| speed(particle) > REST_SPEED).collect();
-    Some(Finding::NotAtRest {
+    Some(Flaw::NotAtRest {
         particle_count: moving.len() as u32,
         speed: moving.iter().map(|&particle| speed(particle)).fold(0.0, f32::max),
         place: panels.place(&moving, positions)?,
     })
 }
 
-fn too_tight(model: &Model, panels: &Panels<'_>, positions: &[Vec3]) -> Option<Finding> {
+fn too_tight(model: &Model, panels: &Panels<'_>, positions: &[Vec3]) -> Option<Flaw> {
     let thresholds: HashMap<[u32; 2], f64> =
         model.springs.iter().map(|spring| (spring.ends, f64::from(spring.threshold))).collect();
     let elongation = |limit: &crate::Limit| {
@@ -177,7 +177,7 @@ fn too_tight(model: &Model, panels: &Panels<'_>, positions: &[Vec3]) -> Option<F
             [rest * (1.0 + elongation(spring)), rest, threshold(spring)]
         }
     };
-    Some(Finding::TooTight {
+    Some(Flaw::TooTight {
         place: girth.map(|girth| girth.place).or_else(|| panels.place(&spring.ends, positions))?,
         length: length as f32,
         rest_length: rest_length as f32,

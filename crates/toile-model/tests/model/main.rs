@@ -1,9 +1,9 @@
 //! What a model must be, on grids, shapes, seams, real garments and random outlines.
 
 mod bending;
+mod fit;
 mod garments;
 mod long_limits;
-
 mod random_outlines;
 mod seams;
 mod shapes;

@@ -8,7 +8,7 @@ use std::fmt;
 /// What can be wrong with how a garment is worn.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "what", rename_all = "snake_case")]
-pub enum Finding {
+pub enum Flaw {
     /// Seams did not close; they are left as they are.
     SeamOpen {
         /// The widest, as "panel.edge to panel.edge".
@@ -61,7 +61,7 @@ pub enum Finding {
     },
 }
 
-impl Finding {
+impl Flaw {
     /// The finding in a word or three.
     pub fn word(&self) -> &'static str {
         match self {
@@ -75,7 +75,7 @@ impl Finding {
     }
 }
 
-impl fmt::Display for Finding {
+impl fmt::Display for Flaw {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::SeamOpen { seam, gap } => {

@@ -1,0 +1,51 @@
+//! The pose that a body is dressed in, where the host leaves the choice.
+
+use super::Fit;
+use glam::Vec3;
+use toile_scene::{Garment, Mesh, MovingMesh};
+
+/// Poses of a clip that are looked at.
+const POSE_COUNT: u32 = 12;
+/// A pose that stands farther from the first one than this [m] is no place for panels that were placed around it.
+const STAND: f32 = 0.2;
+
+/// A pose, and how far from clear of the panels it stands.
+pub(crate) struct Choice {
+    /// The body in it; `None` is the first pose of its motion.
+    pub(crate) body: Option<MovingMesh>,
+    /// Time in the clip [s]; `None` without the clip.
+    pub(crate) time: Option<f64>,
+}
+
+/// The first of these that stands clear of the panels as they are placed, or else the clearest: the first pose of the motion, the pose without
+/// a clip, poses over the clip. Patterns are placed around a body that stands still: a leg that strides would stand in front of them.
+pub(crate) fn choose(body: &MovingMesh, garments: &[&Garment]) -> Choice {
+    let mut best = Choice { body: None, time: Some(0.0) };
+    let mut least = Fit::misfit(&body.mesh, garments);
+    if least == 0 {
+        return best;
+    }
+    let resting = body.at_rest().map(|resting| (resting, None));
+    let posed = (1..=POSE_COUNT).filter_map(|index| {
+        let time = body.duration() * f64::from(index) / f64::from(POSE_COUNT + 1);
+        body.held(time).map(|held| (held, Some(time)))
+    });
+    for (pose, time) in resting.into_iter().chain(posed.filter(|_| body.duration() > 0.0)) {
+        if time.is_some() && middle(&pose.mesh).distance(middle(&body.mesh)) > STAND {
+            continue;
+        }
+        let misfit = Fit::misfit(&pose.mesh, garments);
+        if misfit < least {
+            least = misfit;
+            best = Choice { body: Some(pose), time };
+        }
+        if least == 0 {
+            break;
+        }
+    }
+    best
+}
+
+fn middle(mesh: &Mesh) -> Vec3 {
+    mesh.bounds().map_or(Vec3::ZERO, |[low, high]| low.midpoint(high))
+}
