@@ -123,7 +123,6 @@ const SPARED: &[(&str, Kind, &[&str])] = &[
             "planes.weight >= 0.0",
             "sight.body.weight >= 0.0",
             "sight.sheet.weight >= 0.0",
-            "foot.hit >= 0.0",
             ">= atomicLoad",
         ],
     ),
@@ -154,6 +153,8 @@ const SPARED: &[(&str, Kind, &[&str])] = &[
             "spread <= sum.spread",
             "way_length >= layer_box.texel",
             "sheet.distance <= probe.distance",
+            "way_length < layer_box.texel",
+            "sheet.hit >= 0.0",
         ],
     ),
 ];

@@ -1,6 +1,6 @@
 // What a point sees of the bodies in the layered maps: along each axis the layers next below and above it. Each is a plane, whose weight
 // falls with the eighth power of the square of its distance and with its slant: no choice is made among them. A second look from
-// the foot of the point on what it saw removes what the slant of a surface does. A point whose way is longer than a texel is
+// the foot of the point on what it saw removes what the slant of a surface does; one that stays clear needs none. A point whose way is longer than a texel is
 // answered at the first place on it where it enters a body. D §8, W §7.
 //
 // The maps show the surfaces at one time, and the surfaces move straight on: at `lag` seconds before that time a surface stood
@@ -75,11 +75,11 @@ fn with_plane(
     let depth = bitcast<f32>(layer.x);
     let on_axis = vec3<u32>(0u, 1u, 2u) == vec3<u32>(axis);
     let sample = select(centre, vec3<f32>(depth), on_axis);
+    let apart = (place - sample) * layer_box.texels_per_metre;
+    let spread = dot(apart, apart) + 1.0;
     let at = packed_at(layer.y);
     let normal = textureLoad(layer_normals, at, 0).xyz;
     let velocity = layer_velocity(at);
-    let apart = (place - sample) * layer_box.texels_per_metre;
-    let spread = dot(apart, apart) + 1.0;
     var sum = planes;
     let is_nearer = spread < sum.spread;
     var part = sum.spread / spread;
@@ -160,26 +160,6 @@ fn mean_of(planes: Planes) -> Probe {
     return Probe(planes.normal / normal_length, planes.distance / planes.weight, planes.velocity / planes.weight, 1.0);
 }
 
-// Where a place stands over what is seen from it.
-struct Foot {
-    place: vec3<f32>,
-    hit: f32,
-}
-
-fn foot_of(planes: Planes, place: vec3<f32>) -> Foot {
-    let seen = mean_of(planes);
-    return Foot(place - seen.normal * seen.distance, seen.hit);
-}
-
-// What is seen from the foot, the thickness of the cloth above it.
-fn answer(planes: Planes) -> Probe {
-    var seen = mean_of(planes);
-    if seen.hit > 0.0 {
-        seen.distance = seen.distance - step.thickness;
-    }
-    return seen;
-}
-
 // Velocity of the nearer of body and sheet.
 fn drift_of(sight: Sight) -> vec3<f32> {
     if sight.sheet.spread < sight.body.spread {
@@ -236,20 +216,28 @@ fn look(position: vec3<f32>, velocity: vec3<f32>) -> Probe {
     }
     var probe = Probe();
     if sight.inside || sight.body.spread < SPREAD_MAX {
-        let foot = foot_of(sight.body, place);
-        if foot.hit > 0.0 {
-            probe = answer(sight_from(foot.place, position, start_lag()).body);
+        probe = mean_of(sight.body);
+        // A point that stays clear needs no second look.
+        if probe.hit > 0.0 && probe.distance - way_length <= layer_box.texel {
+            let foot = place - probe.normal * probe.distance;
+            probe = mean_of(sight_from(foot, position, start_lag()).body);
         }
+        probe.distance = probe.distance - step.thickness;
     }
     if sight.sheet.spread < SPREAD_MAX {
-        let foot = foot_of(sight.sheet, place);
-        if foot.hit > 0.0 {
-            let sheet = answer(sight_from(foot.place, position, start_lag()).sheet);
-            let nearer = !(probe.hit > 0.0) || sheet.distance < probe.distance;
-            if sheet.hit > 0.0 && sheet.distance > -SHEET_DEPTH && nearer {
-                return sheet;
-            }
+        var sheet = mean_of(sight.sheet);
+        if sheet.hit > 0.0 && sheet.distance - way_length <= layer_box.texel {
+            let foot = place - sheet.normal * sheet.distance;
+            sheet = mean_of(sight_from(foot, position, start_lag()).sheet);
+        }
+        sheet.distance = sheet.distance - step.thickness;
+        let nearer = !(probe.hit > 0.0) || sheet.distance < probe.distance;
+        if sheet.hit > 0.0 && sheet.distance > -SHEET_DEPTH && nearer {
+            return sheet;
         }
     }
-    return probe;
+    if probe.hit > 0.0 {
+        return probe;
+    }
+    return Probe();
 }

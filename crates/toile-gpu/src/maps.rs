@@ -92,6 +92,16 @@ impl BodyMaps {
         Ok(Self { space: space.clone(), kind })
     }
 
+    /// Empty layered maps that are drawn and sorted by WGSL that is changed to see a test fail. What is not valid is an error of the device's
+    /// error scope.
+    ///
+    /// # Errors
+    /// As [`BodyMaps::new`].
+    pub fn of_sources(device: &wgpu::Device, space: &MapSpace, sources: [&str; 2]) -> Result<Self, GpuError> {
+        let maps = LayerMaps::of_sources(device, space, sources)?;
+        Ok(Self { space: space.clone(), kind: Kind::Layers(Box::new(maps)) })
+    }
+
     /// Empty maps of the same size and kind, which share the pipelines of these.
     ///
     /// # Errors

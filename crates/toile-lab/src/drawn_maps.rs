@@ -53,9 +53,17 @@ impl DrawnMaps {
     /// # Errors
     /// [`GpuError`] when the maps do not fit the device.
     pub fn draw_surfaces(gpu: &Gpu, surfaces: &[(&Surface, f32)], space: &MapSpace) -> Result<Self, GpuError> {
-        let maps = BodyMaps::new(&gpu.device, space)?;
-        gpu.run(|encoder| maps.record(&gpu.device, encoder, space.map_box, surfaces))?;
-        let read = read_maps(gpu, &maps, space.map_box)?;
+        Self::draw_into(gpu, BodyMaps::new(&gpu.device, space)?, surfaces)
+    }
+
+    /// Draws surfaces of the device into maps.
+    ///
+    /// # Errors
+    /// [`GpuError::Device`] when the device is lost.
+    pub fn draw_into(gpu: &Gpu, maps: BodyMaps, surfaces: &[(&Surface, f32)]) -> Result<Self, GpuError> {
+        let map_box = maps.space().map_box;
+        gpu.run(|encoder| maps.record(&gpu.device, encoder, map_box, surfaces))?;
+        let read = read_maps(gpu, &maps, map_box)?;
         Ok(Self { maps: Arc::new(maps), read })
     }
 

@@ -70,6 +70,16 @@ impl LayerMaps {
         Self::with_programs(device, space, (draw, Program::new(device, draw)), Program::new(device, Kernel::SortLayers))
     }
 
+    /// Empty maps that are drawn and sorted by other WGSL with the interface of the kernels.
+    ///
+    /// # Errors
+    /// As [`LayerMaps::new`].
+    pub(crate) fn of_sources(device: &wgpu::Device, space: &MapSpace, sources: [&str; 2]) -> Result<Self, GpuError> {
+        let kernels = [if space.moving { Kernel::DrawMovingLayers } else { Kernel::DrawLayers }, Kernel::SortLayers];
+        let [draw, sort] = [0, 1].map(|k| Program::of_source(device, kernels[k], sources[k], &[]));
+        Self::with_programs(device, space, (kernels[0], draw), sort)
+    }
+
     /// Empty maps of the same size and kind, which share the pipelines of these.
     ///
     /// # Errors

@@ -115,9 +115,9 @@ impl View<'_> {
                 k += 1.0;
             }
         }
-        let body = self.answer(position, place, sight.body, |sight| sight.body);
+        let body = self.answer(position, place, length, sight.body, |sight| sight.body);
         let body = body.filter(|_| sight.inside || sight.body.spread < SPREAD_MAX);
-        let sheet = self.answer(position, place, sight.sheet, |sight| sight.sheet);
+        let sheet = self.answer(position, place, length, sight.sheet, |sight| sight.sheet);
         let sheet = sheet.filter(|probe| sight.sheet.spread < SPREAD_MAX && probe.distance > -SHEET_DEPTH);
         match (body, sheet) {
             (Some(body), Some(sheet)) if sheet.distance < body.distance => sheet,
@@ -127,12 +127,21 @@ impl View<'_> {
         }
     }
 
-    /// The second look: from the foot of a place on what was seen from there.
-    fn answer(&self, position: Vec3, place: Vec3, seen: Planes, of: fn(&Sight) -> Planes) -> Option<Probe> {
-        let first = seen.mean()?;
-        let foot = place - first.normal * first.distance;
-        let mean = of(&self.sight(foot, position, self.lag.start)).mean()?;
-        Some(Probe { distance: mean.distance - self.settings.thickness, ..mean })
+    /// The second look, from the foot of a place on what was seen from there; a point that stays clear on a way of this length needs none.
+    fn answer(
+        &self,
+        position: Vec3,
+        place: Vec3,
+        length: f32,
+        first: Planes,
+        of: fn(&Sight) -> Planes,
+    ) -> Option<Probe> {
+        let mut seen = first.mean()?;
+        if seen.distance - length <= self.maps.map_box.texel {
+            let foot = place - seen.normal * seen.distance;
+            seen = of(&self.sight(foot, position, self.lag.start)).mean()?;
+        }
+        Some(Probe { distance: seen.distance - self.settings.thickness, ..seen })
     }
 
     /// What is seen from a place, with the distances of `point` when the surfaces stand back by `lag` [s].
@@ -163,10 +172,10 @@ impl View<'_> {
         let scale = 1.0 / map_box.texel;
         let mut centre = ((place * scale).floor() + 0.5) * map_box.texel;
         centre[axis] = self.maps.depths[layer as usize];
-        let normal = self.maps.normals[layer as usize];
-        let velocity = self.maps.velocities.as_ref().map_or(Vec3::ZERO, |all| all[layer as usize]);
         let apart = (place - centre) * scale;
         let spread = apart.dot(apart) + 1.0;
+        let normal = self.maps.normals[layer as usize];
+        let velocity = self.maps.velocities.as_ref().map_or(Vec3::ZERO, |all| all[layer as usize]);
         let nearer = spread < planes.spread;
         let part = if nearer { spread / planes.spread } else { planes.spread / spread };
         let part2 = part * part;
