@@ -1,6 +1,6 @@
 //! What WGSL leaves to the driver: the answer of a kernel does not hang on it.
 
-use crate::kernels::{Case, alone};
+use crate::kernels::{Case, alone, seeds};
 use std::env;
 use std::sync::LazyLock;
 
@@ -95,8 +95,8 @@ fn no_answer_hangs_on_what_a_driver_takes_for_the_larger_of_a_number_and_nan() {
         for (words, reading) in READINGS {
             let Some(source) = with_reading(&source, reading) else { continue };
             let compiled = Compiled::new(gpu(), row.kernel, &source).expect("the functions compile");
-            let cases = cases.get_or_insert_with(|| Case::variants(row.kernel));
-            let found = cases.iter().find_map(|case| case.difference(&compiled));
+            let cases = cases.get_or_insert_with(|| Case::variants(seeds(), row.kernel));
+            let found = cases.iter().find_map(|case| case.difference(gpu(), &compiled));
             faults.extend(found.map(|difference| format!("{name}, {words}: {difference}")));
         }
         kernels += u32::from(cases.is_some());

@@ -4,7 +4,7 @@ use crate::branches;
 use std::sync::OnceLock;
 use toile_kernels::{Kernel, Row, Stage, TABLE};
 use toile_lab::kernels::{Compiled, Input, Inputs, Seeds, VARIANTS, Variant, answer, first_difference};
-use toile_workspace::gpu;
+use toile_workspace::{Gpu, gpu};
 
 /// One item, and around the border of a workgroup, and more than a few of them.
 const SIZES: [u32; 5] = [1, 63, 64, 65, 1757];
@@ -12,10 +12,15 @@ const SIZES: [u32; 5] = [1, 63, 64, 65, 1757];
 /// Buffers that hold whole numbers.
 const COUNTS: [&str; 3] = ["polish_state", "status", "sweep_dispatches"];
 
+/// What all inputs of the device of this test process are drawn from.
+pub fn seeds() -> &'static Seeds {
+    static SEEDS: OnceLock<Seeds> = OnceLock::new();
+    SEEDS.get_or_init(|| Seeds::new(gpu(), 0).expect("the device answers"))
+}
+
 /// Seeded input for a kernel.
 pub fn input(kernel: Kernel, items: u32, variant: Variant) -> Input {
-    static SEEDS: OnceLock<Seeds> = OnceLock::new();
-    SEEDS.get_or_init(|| Seeds::new(gpu(), 0).expect("the device answers")).input(kernel, items, variant)
+    seeds().input(kernel, items, variant)
 }
 
 /// Input of a kernel, and what the reference makes of it.
@@ -33,16 +38,16 @@ impl Case {
     }
 
     /// Seeded input of a few workgroups under every variant of the settings, and of two items.
-    pub fn variants(kernel: Kernel) -> Vec<Self> {
+    pub fn variants(seeds: &Seeds, kernel: Kernel) -> Vec<Self> {
         let many = VARIANTS.map(|variant| (1757, variant));
         let all = many.into_iter().chain([(2, Variant::Papers)]);
-        all.map(|(items, variant)| Self::new(kernel, input(kernel, items, variant))).collect()
+        all.map(|(items, variant)| Self::new(kernel, seeds.input(kernel, items, variant))).collect()
     }
 
-    /// Where the device differs from the reference in what the kernel writes.
-    pub fn difference(&self, compiled: &Compiled) -> Option<String> {
+    /// Where the device, that of the seeds, differs from the reference in what the kernel writes.
+    pub fn difference(&self, gpu: &Gpu, compiled: &Compiled) -> Option<String> {
         let name = self.kernel.name();
-        let written = compiled.run(gpu(), self.input.invocations, &self.input).expect("the device answers");
+        let written = compiled.run(gpu, self.input.invocations, &self.input).expect("the device answers");
         assert!(!written.is_empty(), "{name} writes nothing");
         written.iter().find_map(|(buffer, device)| {
             let reference: Vec<u32> = bytemuck::pod_collect_to_vec(&self.expected.bytes(buffer));
@@ -74,7 +79,8 @@ fn every_kernel_alone_gives_the_bits_of_its_reference() {
         let compiled = Compiled::new(gpu(), kernel, &kernel.source()).expect("the kernel compiles");
         for items in SIZES {
             for variant in VARIANTS {
-                if let Some(difference) = Case::new(kernel, input(kernel, items, variant)).difference(&compiled) {
+                if let Some(difference) = Case::new(kernel, input(kernel, items, variant)).difference(gpu(), &compiled)
+                {
                     faults.push(format!("{} of {items} {variant:?}: {difference}", kernel.name()));
                 }
             }

@@ -10,7 +10,7 @@ use toile_workspace::gpu;
 
 fn agrees(kernel: Kernel, input: Input) {
     let compiled = Compiled::new(gpu(), kernel, &kernel.source()).expect("the kernel compiles");
-    assert_eq!(Case::new(kernel, input).difference(&compiled), None, "{}", kernel.name());
+    assert_eq!(Case::new(kernel, input).difference(gpu(), &compiled), None, "{}", kernel.name());
 }
 
 /// Particles that dive into the surfaces; the middle of the way of each lies on a corner of four texels, as exactly as its start can be

@@ -1,11 +1,13 @@
 //! Saboteurs: with any one mistake in its WGSL, a kernel no longer agrees with its reference.
 
-use crate::kernels::{Case, alone};
+use crate::kernels::{Case, alone, seeds};
 use crate::mutants::{Kind, Mutant, mutants};
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
 use toile_kernels::Kernel;
-use toile_lab::kernels::Compiled;
-use toile_workspace::gpu;
+use toile_lab::kernels::{Compiled, Seeds};
+use toile_workspace::{Gpu, gpu};
 
 /// How many mistakes of each kind there are at least, so that none is lost to a change of the text.
 const LEAST: [(Kind, usize); 6] = [
@@ -166,13 +168,6 @@ fn spares(mutant: &Mutant) -> Option<&'static str> {
     parts.find(|part| mutant.wrong.contains(**part) && !mutant.line.contains(**part)).copied()
 }
 
-/// Whether the comparison with the reference finds the sabotage; `None` where it does not even compile, so that nobody makes it
-/// unseen.
-fn is_found(kernel: Kernel, cases: &[Case], source: &str) -> Option<bool> {
-    let compiled = Compiled::new(gpu(), kernel, source)?;
-    Some(cases.iter().any(|case| case.difference(&compiled).is_some()))
-}
-
 /// What to change in kernels whose own lines have no mistake that is found.
 fn other_sabotage(kernel: Kernel, source: &str) -> Option<String> {
     let (from, to) = match kernel {
@@ -184,32 +179,76 @@ fn other_sabotage(kernel: Kernel, source: &str) -> Option<String> {
     Some(source.replacen(from, to, 1))
 }
 
-#[test]
-fn every_mistake_is_found() {
-    // Shared files have functions that not every kernel calls, so a mistake counts as found once one kernel finds it.
-    let mut found: BTreeMap<Mutant, bool> = BTreeMap::new();
-    let mut spared = BTreeSet::new();
-    for row in alone() {
-        let kernel = row.kernel;
-        let cases = Case::variants(kernel);
-        let source = kernel.source();
-        let mut any =
-            other_sabotage(kernel, &source).is_some_and(|source| is_found(kernel, &cases, &source) == Some(true));
-        for (mutant, source) in mutants(&source) {
+/// The mistakes that were made, each with whether a comparison found it. Shared files have functions that not every kernel calls, so
+/// a mistake counts as found once one kernel finds it.
+#[derive(Default)]
+struct Report {
+    found: BTreeMap<Mutant, bool>,
+    spared: BTreeSet<&'static str>,
+}
+
+/// The mistakes of a kernel that nobody has made yet, and whether any was found.
+struct Hunt {
+    kernel: Kernel,
+    left: Mutex<std::vec::IntoIter<(Mutant, String)>>,
+    any: AtomicBool,
+}
+
+impl Hunt {
+    fn new(kernel: Kernel) -> Self {
+        Self { kernel, left: Mutex::new(mutants(&kernel.source()).into_iter()), any: AtomicBool::new(false) }
+    }
+
+    /// Makes mistakes until none is left.
+    fn join(&self, gpu: &Gpu, seeds: &Seeds, report: &Mutex<Report>) {
+        let cases = Case::variants(seeds, self.kernel);
+        // `None` where a sabotage does not even compile, so that nobody makes it unseen.
+        let is_found = |source: &str| {
+            let compiled = Compiled::new(gpu, self.kernel, source)?;
+            Some(cases.iter().any(|case| case.difference(gpu, &compiled).is_some()))
+        };
+        if other_sabotage(self.kernel, &self.kernel.source()).is_some_and(|source| is_found(&source) == Some(true)) {
+            self.any.store(true, Ordering::Relaxed);
+        }
+        while let Some((mutant, source)) = self.next() {
+            let mut lines = report.lock().expect("no hunter fails");
             if let Some(part) = spares(&mutant) {
-                spared.insert(part);
+                lines.spared.insert(part);
                 continue;
             }
-            if any && found.get(&mutant) == Some(&true) {
+            if self.any.load(Ordering::Relaxed) && lines.found.get(&mutant) == Some(&true) {
                 continue;
             }
-            if let Some(here) = is_found(kernel, &cases, &source) {
-                *found.entry(mutant).or_default() |= here;
-                any |= here;
+            drop(lines);
+            if let Some(here) = is_found(&source) {
+                *report.lock().expect("no hunter fails").found.entry(mutant).or_default() |= here;
+                self.any.fetch_or(here, Ordering::Relaxed);
             }
         }
-        assert!(any, "{}: no sabotage is found", kernel.name());
     }
+
+    fn next(&self) -> Option<(Mutant, String)> {
+        self.left.lock().expect("no hunter fails").next()
+    }
+}
+
+#[test]
+fn every_mistake_is_found() {
+    let hunts: Vec<Hunt> = alone().map(|row| Hunt::new(row.kernel)).collect();
+    let report = Mutex::new(Report::default());
+    let hunter = |gpu: &Gpu, seeds: &Seeds| hunts.iter().for_each(|hunt| hunt.join(gpu, seeds, &report));
+    // A driver takes the longest for its own programs, which it makes for one device one after the other.
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            let gpu = Gpu::open(wgpu::Backends::all()).expect("a second device");
+            hunter(&gpu, &Seeds::new(&gpu, 0).expect("the device answers"));
+        });
+        hunter(gpu(), seeds());
+    });
+    for hunt in hunts {
+        assert!(hunt.any.into_inner(), "{}: no sabotage is found", hunt.kernel.name());
+    }
+    let Report { found, spared } = report.into_inner().expect("no hunter failed");
     for (kind, least) in LEAST {
         let count = found.keys().filter(|mutant| mutant.kind == kind).count();
         assert!(count >= least, "only {count} mistakes of the kind {kind:?} were made");
