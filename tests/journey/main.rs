@@ -4,4 +4,5 @@ mod clock;
 mod dressing;
 mod layers;
 mod saved;
+mod sewing;
 mod support;

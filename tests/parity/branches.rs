@@ -81,7 +81,7 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
             see("is one particle", holds().filter(|h| members(h).len() == 1).count());
             see("is more than a workgroup", holds().filter(|h| members(h).len() > 64 && way(h).is_finite()).count());
         }
-        Kernel::CloseSeams => {
+        Kernel::DrawSeams | Kernel::CloseSeams => {
             let pairs: Vec<_> = before.colour_pairs().iter().map(|s| s.ends.map(|end| end as usize)).collect();
             ends(&pairs, before, after, &mut see);
             let shut = |s: &&toile_model::SeamPair| {

@@ -4,7 +4,7 @@ use crate::bodies::{meshes, shapes};
 use crate::look::{Look, State};
 use anyhow::{Result, bail};
 use toile::Stage;
-use toile::model::{Dressing, DressingStage, Judged, Merge, Open, Piece, Solid, StepSettings, Verdict};
+use toile::model::{Dressing, DressingStage, Judged, Merge, Motion, Open, Piece, Solid, StepSettings, Verdict};
 use toile::scene::{MapKind, Mesh, Scene, Shape};
 use toile_reference::maps::{BodyMaps, Surface};
 use toile_reference::{Colliders, Reference};
@@ -28,6 +28,8 @@ struct Worn {
     settings: StepSettings,
     /// The stage that the cloth has been handed over for.
     stage: DressingStage,
+    /// How it moves, while it drapes.
+    motion: Motion,
 }
 
 impl ReferenceRun {
@@ -65,12 +67,14 @@ impl ReferenceRun {
                 dressing: None,
                 settings: piece.step.clone(),
                 stage: DressingStage::Dressed,
+                motion: Motion::default(),
             },
             Some(Open { model: open, sewing, .. }) => Worn {
                 reference: Reference::new(open, sewing, colliders),
                 dressing: Some(Dressing::new(open, sewing)),
                 settings: sewing.clone(),
                 stage: DressingStage::Sewing,
+                motion: Motion::default(),
             },
         });
     }
@@ -99,8 +103,10 @@ impl ReferenceRun {
             return Err(toile::Error::Diverged { step: status.step, particle, count: status.non_finite_count }.into());
         }
         let Some(dressing) = &mut worn.dressing else { return Ok(steps) };
-        let count = worn.reference.positions().len() as u32;
-        dressing.advance(&status, count);
+        if worn.stage == DressingStage::Draping {
+            worn.motion.see(status.step, worn.reference.positions().to_vec(), worn.settings.dt);
+        }
+        dressing.advance(&status, &worn.motion);
         piece.leave_open(dressing.is_left_open());
         if dressing.stage() == DressingStage::Dressed && !is_last {
             let (positions, normals) = (worn.reference.positions().to_vec(), worn.reference.normals());
@@ -135,11 +141,11 @@ impl ReferenceRun {
         let bodies = self.layers.iter().filter(|(_, open)| !open).map(|(mesh, _)| mesh);
         let body = Solid::of(bodies.chain(&shapes));
         let dressed = self.pieces.iter().zip(&self.worn);
-        let verdict = |(piece, Worn { reference, dressing, .. }): (&Piece, &Worn)| {
+        let verdict = |(piece, Worn { reference, dressing, motion, .. }): (&Piece, &Worn)| {
             let judged = Judged {
                 model: &piece.model,
                 positions: reference.positions(),
-                velocities: reference.velocities(),
+                velocities: motion.velocities(),
                 is_at_rest: dressing.as_ref()?.is_at_rest(),
             };
             Some(Verdict::of(&judged, &body))

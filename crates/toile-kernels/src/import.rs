@@ -31,6 +31,7 @@ const SHARED: &[(&str, &str)] = &shared![
     "quad",
     "reduction",
     "response",
+    "seam",
     "span",
     "step_params",
     "vertices",

@@ -193,6 +193,8 @@ kernels! {
     WarmStart "step" "warm_start" Step LimitColour RulePredictive;
     /// Labelled edges keep their mean height while sewing.
     HoldEdges "step" "hold_edges" Step Hold Holds;
+    /// Seams close at their speed, as far as cloth and bodies let them, which answer later in the sweep.
+    DrawSeams "step" "draw_seams" Sweep SeamColour Seams;
     /// D §4.3.
     LimitZero "step" "limit_zero" Sweep LimitColour RuleZero;
     /// W eq. 5.
@@ -219,7 +221,7 @@ kernels! {
     SampleShapes "step" "sample_shapes" Sweep Point Shapes;
     /// Each particle answers its own contact and those of its quads. D §6, W eq. 15.
     Collide "step" "collide" Sweep Particle Body;
-    /// Seams close at a set speed; last of all, so that a seam that a tight fit holds open closes all the same.
+    /// Seams close slowly whatever holds them open; last of all, so that one that a tight fit holds open closes all the same.
     CloseSeams "step" "close_seams" Sweep SeamColour Seams;
     /// No contact leaves a spring stretched far beyond its limit.
     LimitGuard "step" "limit_guard" AfterSweeps LimitColourShare Guard;

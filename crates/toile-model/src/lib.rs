@@ -23,6 +23,7 @@ pub use mesh::geometry::NO_CORNER;
 pub use mesh::inside::Inside;
 pub use run::dressing::{Dressing, DressingStage};
 pub use run::map_box::MapBox;
+pub use run::motion::Motion;
 pub use run::piece::{Open, Piece};
 pub use run::shape_step::{ShapeKind, ShapeStep};
 pub use run::side_box::SideBox;

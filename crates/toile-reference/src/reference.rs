@@ -165,9 +165,12 @@ impl Reference {
         self.step += 1;
     }
 
-    /// One sweep: limits, bodies and seams take their turns.
+    /// One sweep: seams, limits and bodies take their turns, and the seams once more.
     fn sweep(&mut self, lag: Lag) {
         let Self { model, settings, particles, contacts, limit_impulses, .. } = self;
+        for colour in &model.seam_colours {
+            step::draw_seams(particles, part(&model.seam_pairs, colour), settings.dt);
+        }
         let touched = (!contacts.is_empty()).then_some(contacts.as_slice());
         limits::sweep(particles, model, settings, touched, limit_impulses);
         if self.colliders.any() {

@@ -32,7 +32,7 @@ mod spring_forces;
 mod warm_start;
 mod wind_forces;
 
-pub use close_seams::close_seams;
+pub use close_seams::{close_seams, draw_seams};
 pub use collide::{Probes, collide};
 pub use euler::euler;
 pub use grant_sweep::{PolishState, grant_sweep};

@@ -20,6 +20,8 @@ pub(crate) struct Dressed {
 pub(crate) struct Done {
     pub(crate) cloth: Cloth,
     pub(crate) dressing: Dressing,
+    /// How its particles moved at last [m/s], shape [particle_count]; empty where that is not known.
+    pub(crate) velocities: Vec<Vec3>,
     pub(crate) bounds: Bounds,
 }
 

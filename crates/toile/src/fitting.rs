@@ -1,7 +1,13 @@
 //! A garment on its way onto a body: sewn, eased and draped, each until measured criteria hold or its time is up.
 
 use crate::{Cloth, Colliders, Error};
-use toile_model::{Dressing, DressingStage, Merge, Piece, Status};
+use glam::{Vec3, Vec4};
+use std::collections::VecDeque;
+use toile_gpu::Arrival;
+use toile_model::{Dressing, DressingStage, Merge, Motion, Piece, Status};
+
+/// Most frames whose positions are under way at once; a frame that finds so many is not looked at.
+const LOOK_COUNT: usize = 4;
 
 /// A garment on its way onto bodies that stand still.
 #[derive(Debug)]
@@ -12,6 +18,10 @@ pub(crate) struct Fitting {
     pub(crate) heard: Option<u64>,
     /// The stage that the cloth has been handed over for.
     pub(crate) stage: DressingStage,
+    /// How it moves, while it drapes.
+    pub(crate) motion: Motion,
+    /// Positions under way, with the steps that they are of.
+    pub(crate) looks: VecDeque<(u64, Arrival)>,
 }
 
 impl Fitting {
@@ -31,7 +41,18 @@ impl Fitting {
             Some(known) => known.new_alike(device, &open.model, &open.sewing, colliders)?,
         };
         let dressing = Dressing::new(&open.model, &open.sewing);
-        Ok(Self { cloth, dressing, heard: None, stage: DressingStage::Sewing })
+        Ok(Self::go_on(cloth, dressing, None, DressingStage::Sewing, Motion::default()))
+    }
+
+    /// A garment that has come so far.
+    pub(crate) fn go_on(
+        cloth: Cloth,
+        dressing: Dressing,
+        heard: Option<u64>,
+        stage: DressingStage,
+        motion: Motion,
+    ) -> Self {
+        Self { cloth, dressing, heard, stage, motion, looks: VecDeque::new() }
     }
 
     /// Hears what the device has reported since the last time.
@@ -43,16 +64,30 @@ impl Fitting {
         if self.dressing.stage() != self.stage {
             return Ok(());
         }
+        self.look();
         let Some(status) =
             self.cloth.status()?.filter(|status: &Status| self.heard.is_none_or(|heard| status.step > heard))
         else {
             return Ok(());
         };
         self.heard = Some(status.step);
-        let count = self.cloth.frame().particle_count;
-        self.dressing.advance(&status, count);
+        self.dressing.advance(&status, &self.motion);
         piece.leave_open(self.dressing.is_left_open());
         Ok(())
+    }
+
+    /// Takes the positions that have arrived.
+    fn look(&mut self) {
+        let dt = self.cloth.settings().dt;
+        while let Some((step, arrival)) = self.looks.front_mut() {
+            if let Some(bytes) = arrival.take() {
+                let positions = bytemuck::pod_collect_to_vec::<u8, Vec4>(&bytes);
+                self.motion.see(*step, positions.into_iter().map(Vec4::truncate).collect::<Vec<Vec3>>(), dt);
+            } else if !arrival.is_over() {
+                return;
+            }
+            self.looks.pop_front();
+        }
     }
 
     /// Records the handovers that are due, then a frame.
@@ -75,6 +110,10 @@ impl Fitting {
             self.hand_over(device, encoder, piece, &same, DressingStage::Draping)?;
         }
         self.cloth.record(device, encoder);
+        if self.stage == DressingStage::Draping && self.looks.len() < LOOK_COUNT {
+            let positions = Arrival::of(device, encoder, &self.cloth.frame().positions);
+            self.looks.push_back((self.cloth.step(), positions));
+        }
         Ok(())
     }
 

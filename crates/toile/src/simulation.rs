@@ -229,8 +229,9 @@ impl Simulation {
                 let heard = fitting.hear(piece);
                 let stage = fitting.dressing.stage();
                 if stage == DressingStage::Dressed && heard.is_ok() {
-                    let Fitting { cloth, dressing, .. } = fitting;
-                    dressed.done.push(Done { cloth, dressing, bounds: Bounds::Unknown });
+                    let Fitting { cloth, dressing, motion, .. } = fitting;
+                    let velocities = motion.velocities().to_vec();
+                    dressed.done.push(Done { cloth, dressing, velocities, bounds: Bounds::Unknown });
                     return self.stage();
                 }
                 dressed.fitting = Some(fitting);
@@ -502,10 +503,14 @@ impl Simulation {
             Ok(values.into_iter().map(|value| value.truncate()).collect())
         };
         let garments = self.pieces.iter().filter(|piece| piece.open.is_some());
-        let verdict = |(piece, Done { cloth, dressing, .. }): (&Piece, &Done)| -> Result<Verdict, Error> {
-            let (positions, velocities) = (read(&cloth.frame().positions)?, read(cloth.velocities())?);
+        let verdict = |(piece, Done { cloth, dressing, velocities, .. }): (&Piece, &Done)| -> Result<Verdict, Error> {
+            let positions = read(&cloth.frame().positions)?;
+            let velocities = match velocities.as_slice() {
+                [] => &read(cloth.velocities())?,
+                seen => seen,
+            };
             let (model, is_at_rest) = (&piece.model, dressing.is_at_rest());
-            Ok(Verdict::of(&Judged { model, positions: &positions, velocities: &velocities, is_at_rest }, &body))
+            Ok(Verdict::of(&Judged { model, positions: &positions, velocities, is_at_rest }, &body))
         };
         garments.zip(&dressed.done).map(verdict).collect()
     }

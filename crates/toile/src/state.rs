@@ -7,13 +7,13 @@ use crate::outfit::Outfit;
 use crate::simulation::{Phase, Simulation};
 use crate::stage::Stage;
 use crate::{Cloth, Colliders, Error};
-use glam::{Vec3, Vec4};
+use glam::Vec3;
 use serde::{Deserialize, Serialize};
 use toile_gpu::readback;
-use toile_model::{Dressing, DressingStage, Piece, Status, digest_of};
+use toile_model::{Dressing, DressingStage, Motion, Piece, Status, digest_of};
 
 /// What the bytes begin with; another layout has another number.
-const MAGIC: &[u8] = b"toile state 2\n";
+const MAGIC: &[u8] = b"toile state 3\n";
 
 /// The whole state of a simulation.
 #[derive(Debug, Serialize, Deserialize)]
@@ -61,6 +61,8 @@ struct SavedDressing {
     stage: DressingStage,
     /// The step of the last status that was heard.
     heard: Option<u64>,
+    /// How the particles of a garment that is dressed moved at last [m/s].
+    velocities: Vec<[f32; 3]>,
 }
 
 impl Simulation {
@@ -84,12 +86,14 @@ impl Simulation {
         };
         let (stage, garment_bounds, cloths) = match &self.phase {
             Phase::Dressing(dressed) => {
-                let done = dressed.done.iter().map(|Done { cloth, dressing, .. }| {
+                let done = dressed.done.iter().map(|Done { cloth, dressing, velocities, .. }| {
                     let (dressing, stage) = (dressing.clone(), DressingStage::Draping);
-                    (cloth, SavedDressing { dressing, stage, heard: Some(cloth.step()) })
+                    let velocities = velocities.iter().map(Vec3::to_array).collect();
+                    (cloth, SavedDressing { dressing, stage, heard: Some(cloth.step()), velocities })
                 });
-                let fitting = dressed.fitting.iter().map(|Fitting { cloth, dressing, heard, stage }| {
-                    (cloth, SavedDressing { dressing: dressing.clone(), stage: *stage, heard: *heard })
+                let fitting = dressed.fitting.iter().map(|Fitting { cloth, dressing, heard, stage, .. }| {
+                    let (dressing, velocities) = (dressing.clone(), Vec::new());
+                    (cloth, SavedDressing { dressing, stage: *stage, heard: *heard, velocities })
                 });
                 let cloths = done.chain(fitting).map(|(cloth, dressing)| save(cloth, Some(dressing)));
                 (SavedStage::Dressing, Vec::new(), cloths.collect::<Result<_, _>>()?)
@@ -156,7 +160,7 @@ impl Simulation {
         let mut dressed = Dressed::default();
         let garments = self.pieces.iter().filter(|piece| piece.open.is_some());
         for (piece, saved) in garments.zip(&state.cloths) {
-            let SavedDressing { dressing, stage, heard } = saved.dressing.clone().ok_or_else(damaged)?;
+            let SavedDressing { dressing, stage, heard, velocities } = saved.dressing.clone().ok_or_else(damaged)?;
             let inner: Option<Vec<_>> = dressed.done.iter().map(|done| done.bounds.known()).collect();
             let inner = inner.ok_or_else(damaged)?;
             let maps = self.draw_still_maps(&dressed.done, &inner, &mut |_, record| {
@@ -171,9 +175,15 @@ impl Simulation {
             submit(&self.device, queue, &mut |encoder| cloth.record_normals(encoder));
             if dressing.stage() == DressingStage::Dressed {
                 let bounds = Bounds::Known(saved.bounds().ok_or_else(damaged)?);
-                dressed.done.push(Done { cloth, dressing, bounds });
+                let velocities = velocities.into_iter().map(Vec3::from_array).collect();
+                dressed.done.push(Done { cloth, dressing, velocities, bounds });
             } else {
-                dressed.fitting = Some(Fitting { cloth, dressing, heard, stage });
+                // What was seen last are the positions that were saved.
+                let motion = match stage {
+                    DressingStage::Draping => Motion::begin(saved.step, saved.positions().ok_or_else(damaged)?),
+                    _ => Motion::default(),
+                };
+                dressed.fitting = Some(Fitting::go_on(cloth, dressing, heard, stage, motion));
             }
         }
         Ok(Phase::Dressing(Box::new(dressed)))
@@ -245,12 +255,17 @@ impl SavedCloth {
         Ok(())
     }
 
+    /// Positions of its particles [m], shape [particle_count].
+    fn positions(&self) -> Option<Vec<Vec3>> {
+        let (_, words) = self.buffers.iter().find(|(name, _)| name == "positions")?;
+        let position = |p: &[u32]| Vec3::from_array([p[0], p[1], p[2]].map(f32::from_bits));
+        Some(words.chunks_exact(4).map(position).collect())
+    }
+
     /// The box around its particles.
     fn bounds(&self) -> Option<[Vec3; 2]> {
-        let (_, words) = self.buffers.iter().find(|(name, _)| name == "positions")?;
-        let positions =
-            || words.chunks_exact(4).map(|p| Vec4::from_array([p[0], p[1], p[2], p[3]].map(f32::from_bits)));
-        let corner = |pick: fn(Vec3, Vec3) -> Vec3| positions().map(Vec4::truncate).reduce(pick);
+        let positions = self.positions()?;
+        let corner = |pick: fn(Vec3, Vec3) -> Vec3| positions.iter().copied().reduce(pick);
         Some([corner(Vec3::min)?, corner(Vec3::max)?])
     }
 }

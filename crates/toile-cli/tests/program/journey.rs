@@ -321,7 +321,8 @@ fn check_dressed(metrics: &Value) {
     assert!(number("seam_gap_max_mm") <= 2.0, "{metrics}");
     assert!(number("penetration_p99_mm") <= 1.0 && number("penetration_max_mm") <= 5.0, "{metrics}");
     assert!(number("false_contact_fraction") < 0.01, "{metrics}");
-    assert!(number("steps_sewing") < 400.0, "{metrics}");
+    // Two garments of half a second each; what is stuck takes longer.
+    assert!(number("steps_sewing") < 800.0, "{metrics}");
 }
 
 #[test]

@@ -28,6 +28,7 @@ pub fn answer(kernel: Kernel, input: &mut Input) {
         Kernel::Reaction => step::reaction(&mut input.forces, particles, &before.contacts, settings),
         Kernel::Euler => step::euler(&mut particles.velocities, &before.forces, &before.particles.inverse_masses, dt),
         Kernel::HoldEdges => step::hold_edges(particles, &before.model.holds, &before.model.held_particles, settings),
+        Kernel::DrawSeams => step::draw_seams(particles, before.colour_pairs(), dt),
         Kernel::CloseSeams => step::close_seams(particles, before.colour_pairs(), dt),
         Kernel::LimitZero => step::limit_zero(particles, before.colour_limits()),
         Kernel::LimitAverage => step::limit_average(particles, before.colour_limits()),

@@ -1,18 +1,22 @@
 //! How a garment gets onto a body: sewn first, then draped, each until measured criteria hold.
 
-use crate::{Model, Status, StepSettings};
+use crate::{Model, Motion, Status, StepSettings};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 /// Seams count as closed when no gap is wider than this [m].
 pub(crate) const SEAM_GAP: f32 = 0.002;
-/// A garment is at rest when its particles have on average the kinetic energy of this speed [m/s] or less.
+/// A garment is at rest when its particles move from frame to frame with this speed [m/s] or less, as the root of the mean square.
 pub(crate) const REST_SPEED: f32 = 0.02;
 /// For so many frames on end: a swing has no speed at its turning points.
 const CALM_FRAMES: u32 = 10;
-/// Simulated time that seams have to close [s].
-const SEWING_SECONDS: f32 = 3.0;
-/// Seams that are no wider when that time is up are merged all the same [m]: the limits of the sewn cloth take back half of it on either side.
+/// Longest simulated time that seams have to close [s].
+const SEWING_SECONDS: f32 = 10.0;
+/// Seams are stuck when the widest does not close by this [m] ...
+const STUCK_GAP: f32 = 0.001;
+/// ... in this simulated time [s]: what holds it open is not cloth that follows slowly.
+const STUCK_SECONDS: f32 = 0.25;
+/// Seams that are stuck and no wider are merged all the same [m]: the limits of the sewn cloth take back half of it on either side.
 const MERGED_GAP: f32 = 0.01;
 /// Simulated time that a sewn garment has to ease [s].
 const EASING_SECONDS: f32 = 0.5;
@@ -40,11 +44,14 @@ pub enum DressingStage {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Dressing {
     stage: DressingStage,
-    rest_energy: f32,
     dt: f32,
     sewing_steps: u64,
     draping_steps: u64,
     seam_gap: f32,
+    /// Widest gap when it last had closed by [`STUCK_GAP`] [m], and the step of that.
+    closing: (f32, u64),
+    /// The step whose motion was looked at last.
+    seen_step: u64,
     is_left_open: bool,
     calm_frames: u32,
 }
@@ -52,14 +59,14 @@ pub struct Dressing {
 impl Dressing {
     /// The way of a garment onto a body, from its open model.
     pub fn new(open: &Model, settings: &StepSettings) -> Self {
-        let mass = open.masses.iter().sum::<f32>() / open.particle_count().max(1) as f32;
         Self {
             stage: if open.seam_pairs.is_empty() { DressingStage::Draping } else { DressingStage::Sewing },
-            rest_energy: 0.5 * mass * REST_SPEED * REST_SPEED,
             dt: settings.dt,
             sewing_steps: 0,
             draping_steps: 0,
             seam_gap: 0.0,
+            closing: (f32::INFINITY, 0),
+            seen_step: 0,
             is_left_open: false,
             calm_frames: 0,
         }
@@ -96,17 +103,21 @@ impl Dressing {
         self.calm_frames >= CALM_FRAMES
     }
 
-    /// Takes the status at the end of a frame and says what to do next. When [`DressingStage::Sewing`] becomes
+    /// Takes the status at the end of a frame, and how the cloth moves once it drapes, and says what to do next. When [`DressingStage::Sewing`] becomes
     /// [`DressingStage::Easing`] the solver must be handed over to the sewn model before its next step, or to the open one where
     /// [`Dressing::is_left_open`]; when that becomes [`DressingStage::Draping`], to the draping settings. Every stage ends, so a garment
     /// always gets to [`DressingStage::Dressed`]; how it is worn then is for a [`Verdict`](crate::Verdict) to say.
-    pub fn advance(&mut self, status: &Status, particle_count: u32) -> DressingStage {
+    pub fn advance(&mut self, status: &Status, motion: &Motion) -> DressingStage {
         match self.stage {
             DressingStage::Sewing => {
                 self.sewing_steps = status.step;
                 self.seam_gap = status.seam_gap_max;
+                if status.seam_gap_max < self.closing.0 - STUCK_GAP {
+                    self.closing = (status.seam_gap_max, status.step);
+                }
+                let is_stuck = (status.step - self.closing.1) as f32 * self.dt > STUCK_SECONDS;
                 let is_late = self.sewing_steps as f32 * self.dt > SEWING_SECONDS;
-                if status.seam_gap_max <= SEAM_GAP || is_late {
+                if status.seam_gap_max <= SEAM_GAP || is_stuck || is_late {
                     let is_narrow = status.seam_gap_max <= MERGED_GAP;
                     self.is_left_open = !is_narrow;
                     self.stage = DressingStage::Easing;
@@ -120,8 +131,10 @@ impl Dressing {
             }
             DressingStage::Draping => {
                 self.draping_steps = status.step - self.sewing_steps;
-                let energy = status.kinetic_energy / particle_count.max(1) as f32;
-                self.calm_frames = if energy <= self.rest_energy { self.calm_frames + 1 } else { 0 };
+                if let Some(speed) = motion.speed().filter(|_| motion.step() > self.seen_step) {
+                    self.seen_step = motion.step();
+                    self.calm_frames = if speed <= REST_SPEED { self.calm_frames + 1 } else { 0 };
+                }
                 if self.is_at_rest() || self.draping_steps as f32 * self.dt > DRAPING_SECONDS {
                     self.stage = DressingStage::Dressed;
                 }

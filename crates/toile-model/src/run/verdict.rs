@@ -54,7 +54,7 @@ pub struct Judged<'a> {
     pub model: &'a Model,
     /// Positions [m], shape [particle_count].
     pub positions: &'a [Vec3],
-    /// Velocities [m/s], shape [particle_count].
+    /// How its particles move [m/s], shape [particle_count]: [`Motion::velocities`](crate::Motion::velocities).
     pub velocities: &'a [Vec3],
     /// Whether it came to rest in its time: [`Dressing::is_at_rest`](crate::Dressing::is_at_rest).
     pub is_at_rest: bool,

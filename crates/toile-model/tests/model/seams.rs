@@ -88,7 +88,7 @@ fn a_seam_pairs_the_particles_across_and_names_its_edges() {
     for pair in &open.seam_pairs {
         let [a, b] = pair.ends.map(|i| open.positions[i as usize]);
         assert!((a.distance(b) - 0.4).abs() < 1e-6, "{a} {b}");
-        assert!((pair.closing_speed - 0.4 / 0.15).abs() < 1e-5);
+        assert!((pair.closing_speed - 0.4 / 0.3).abs() < 1e-5);
         let spring = find(&open, pair.ends[0], pair.ends[1]).unwrap();
         assert_eq!((spring.kind, spring.rest_length, spring.stiffness), (SpringKind::Seam, 0.0, 0.003));
         assert!(open.limits.iter().all(|l| l.ends != pair.ends));

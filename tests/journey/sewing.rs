@@ -1,0 +1,54 @@
+//! What must hold while panels are sewn around a body, and of cloth that is too small for it.
+
+use crate::support::{advance, gpu, start, walking};
+use toile::Stage;
+use toile_model::{Flaw, Solid, crossed_particles};
+use toile_scene::{Body, Mesh};
+
+/// Garments on the built-in woman who stands still, her size across times `girth` [1].
+fn standing(garment: &str, girth: f32) -> (toile_scene::Scene, Mesh) {
+    let mut scene = walking(&[garment], "apose_to_walk");
+    let Body::Moving(moving) = &scene.bodies[0] else { panic!("she walks") };
+    let mut mesh = moving.mesh.clone();
+    mesh.positions.iter_mut().for_each(|p| *p *= glam::vec3(girth, 1.0, girth));
+    scene.bodies = vec![Body::Mesh(mesh.clone())];
+    (scene, mesh)
+}
+
+/// Seams close around arms and shoulders, and never through them: cloth follows its seams and is not stretched over a limb.
+#[test]
+fn nothing_crosses_a_limb_while_it_is_sewn() {
+    let (mut scene, mesh) = standing("shirt_sleeves", 1.0);
+    scene.settings.spacing = 0.03;
+    scene.settings.texel = 0.01;
+    let body = Solid::of([&mesh]);
+    let mut simulation = start(&scene);
+    let mut frames = 0;
+    while simulation.stage().expect("it can be sewn") == Stage::Sewing {
+        advance(&mut simulation, 1.0 / 60.0);
+        frames += 1;
+        let worn = simulation.cloths().next().expect("the shirt");
+        let positions = gpu().vec3s(&worn.cloth.frame().positions);
+        let (crossed, depth) = crossed_particles(worn.model, &positions, &body);
+        assert!(crossed.is_empty(), "frame {frames}: {} particles, {depth} m deep", crossed.len());
+        let elongation = worn.cloth.status().expect("it stays finite").expect("a frame is done").elongation_max;
+        assert!(elongation < 0.3, "frame {frames}: stretched by {elongation}");
+    }
+    let dressing = simulation.dressings().next().expect("the shirt");
+    assert!(frames > 10 && !dressing.is_left_open(), "{frames} frames");
+}
+
+/// Cloth that cannot hold both its limits and the skin stretches, lies still, and is told to be too tight, and nothing else.
+#[test]
+fn cloth_that_is_too_tight_lies_still() {
+    let (scene, _) = standing("skirt", 1.15);
+    let mut simulation = start(&scene);
+    while simulation.stage().expect("it can be sewn") != Stage::Dressed {
+        advance(&mut simulation, 1.0 / 60.0);
+    }
+    assert!(simulation.dressings().all(|dressing| dressing.is_at_rest()), "{:?}", simulation.dressings().next());
+    let verdicts = simulation.verdicts(&gpu().queue).expect("a device");
+    let [Flaw::TooTight { length, rest_length, .. }] = verdicts[0].findings.as_slice() else { panic!("{verdicts:?}") };
+    let elongation = length / rest_length - 1.0;
+    assert!((0.05..0.25).contains(&elongation), "its waist is {elongation} longer than it was cut");
+}
