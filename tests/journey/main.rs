@@ -2,6 +2,7 @@
 
 mod clock;
 mod dressing;
+mod jumps;
 mod layers;
 mod saved;
 mod support;

@@ -131,6 +131,9 @@ pub fn walk(walk: &Walk, running: &Running) -> Result<Outcome> {
     if running.json {
         print(&text)?;
     } else if !running.quiet {
+        for jump in metrics.jumps() {
+            print(&jump)?;
+        }
         print(&metrics.line())?;
         print(&format!("wrote {}", running.out.display()))?;
     }
@@ -178,6 +181,7 @@ fn simulate(walk: &Walk, gpu: &Gpu, simulation: &mut Simulation, saved: &Saved, 
     let stage = Stage::new(&walk.body, f64::from(walk.frame_count) * seconds);
     std::fs::create_dir_all(&running.out)?;
     let progress = progress(walk.frame_count, done, running.quiet);
+    let mut told = 0;
     let before = simulation.cloths().map(|worn| Ok(worn.cloth.status()?.unwrap_or_default()));
     let mut last: Vec<Status> = before.collect::<Result<_>>()?;
     for frame in done + 1..=walk.frame_count {
@@ -188,6 +192,9 @@ fn simulate(walk: &Walk, gpu: &Gpu, simulation: &mut Simulation, saved: &Saved, 
         let body = walk.body.at(time);
         let (exact, mut inner) = ((ExactDistance::new(&body), Solid::of([&body])), Vec::new());
         let mut row = FrameRow::new(frame, time, maps_ms, simulated_ms);
+        row.teleports = simulation.teleports().to_vec();
+        row.teleports.drain(..told);
+        told += row.teleports.len();
         let (mut points, mut cloths) = (Vec::new(), Vec::new());
         for (worn, last) in simulation.cloths().zip(&mut last) {
             let status = status(worn.cloth)?;
@@ -224,6 +231,7 @@ fn collision_part(gpu: &Gpu, simulation: &mut Simulation) -> Result<f64> {
                 Kernel::Reaction
                 | Kernel::QuadMidpoints
                 | Kernel::SampleMovingSides
+                | Kernel::SampleMovingLayers
                 | Kernel::Collide
                 | Kernel::KeepOut => {
                     collision += time.milliseconds;

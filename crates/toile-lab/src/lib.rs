@@ -9,6 +9,7 @@ pub mod fixtures;
 mod gpu;
 pub mod kernels;
 mod lab;
+pub mod motion;
 mod network;
 mod random;
 mod run;
