@@ -2,6 +2,7 @@
 
 mod clock;
 mod dressing;
+mod headings;
 mod jumps;
 mod layers;
 mod saved;

@@ -1,6 +1,7 @@
 //! Motions that no file has: clips that are made for the built-in woman, and bodies that are carried along a way.
 
-use glam::{DQuat, DVec3};
+use glam::{DQuat, DVec3, dvec3};
+use std::f64::consts::{FRAC_PI_2, TAU};
 use toile::scene::{
     Channel, Clip, Interpolation, Keys, LocalTransform, Motion, MovingMesh, Rig, RigNode, RigidKey, Skin,
 };
@@ -16,10 +17,10 @@ pub struct Stance<'a> {
     pub shift: DVec3,
 }
 
-/// Parts of the way from one stance to the next, which begins and ends gently.
+/// Parts of the way from one share of a stance to the next.
 const PARTS: u32 = 12;
 
-/// A body that goes from stance to stance, gently; the joint that `first` names carries the shift.
+/// A body that goes straight from stance to stance; the joint that `first` names carries the shift.
 ///
 /// # Panics
 /// When the body has no joints, or none of a name.
@@ -41,16 +42,13 @@ pub fn posed(body: &MovingMesh, first: &str, stances: &[Stance<'_>]) -> MovingMe
         .iter()
         .map(|name| {
             let values: Vec<DQuat> = stances.iter().map(|stance| turn(stance, name)).collect();
-            Channel::Rotation { node: node(name), keys: gentle(stances, &values, |a, b, share| a.slerp(b, share)) }
+            Channel::Rotation { node: node(name), keys: straight(stances, values) }
         })
         .collect();
     let (place, ..) = rest(rig, node(first));
     let unit = rig.metres_per_unit();
     let places: Vec<DVec3> = stances.iter().map(|stance| place + stance.shift / unit).collect();
-    channels.push(Channel::Translation {
-        node: node(first),
-        keys: gentle(stances, &places, |a, b, share| a.lerp(b, share)),
-    });
+    channels.push(Channel::Translation { node: node(first), keys: straight(stances, places) });
     let duration = stances.last().map_or(0.0, |stance| stance.time);
     moving(body, skin, rig, rig.nodes().to_vec(), Clip { name: "stances".to_owned(), duration, channels })
 }
@@ -101,17 +99,23 @@ fn repeat<T: Clone>(keys: &mut Keys<T>, round: f64, until: f64) {
     }
 }
 
-/// Keys that go from value to value by the cubic 3s² − 2s³ of the share s of the time.
-fn gentle<T: Copy>(stances: &[Stance<'_>], values: &[T], between: impl Fn(T, T, f64) -> T) -> Keys<T> {
-    let mut keys = Keys { interpolation: Interpolation::Linear, times: vec![stances[0].time], values: vec![values[0]] };
-    for (times, ends) in stances.windows(2).zip(values.windows(2)) {
-        for part in 1..=PARTS {
-            let share = f64::from(part) / f64::from(PARTS);
-            keys.times.push(times[0].time + share * (times[1].time - times[0].time));
-            keys.values.push(between(ends[0], ends[1], share * share * (3.0 - 2.0 * share)));
-        }
+/// Stances at shares of a whole [1] at times [s], gently begun and stopped in between.
+fn eased(profile: &[(f64, f64)], stance: impl Fn(f64, f64) -> Stance<'static>) -> Vec<Stance<'static>> {
+    let mut stances = vec![stance(profile[0].0, profile[0].1)];
+    for ends in profile.windows(2) {
+        let [(start, from), (end, to)] = [ends[0], ends[1]];
+        stances.extend((1..=PARTS).map(|part| {
+            let part = f64::from(part) / f64::from(PARTS);
+            stance(start + part * (end - start), from + smooth(part) * (to - from))
+        }));
     }
-    keys
+    stances
+}
+
+/// Values at the times of the stances.
+fn straight<T>(stances: &[Stance<'_>], values: Vec<T>) -> Keys<T> {
+    let times = stances.iter().map(|stance| stance.time).collect();
+    Keys { interpolation: Interpolation::Linear, times, values }
 }
 
 fn skinned(body: &MovingMesh) -> (&Skin, &Rig) {
@@ -136,4 +140,110 @@ fn moving(body: &MovingMesh, skin: &Skin, rig: &Rig, nodes: Vec<RigNode>, clip: 
     let mut moving = MovingMesh { mesh: body.mesh.clone(), motion: Motion::Skinned { skin: skin.clone(), rig } };
     moving.mesh = moving.at(0.0);
     moving
+}
+
+/// Speed of the built-in woman's walk [m/s].
+const WALKING_SPEED: f64 = 0.96;
+
+/// How often a way is given [1/s].
+const WAY_RATE: f64 = 30.0;
+
+/// A motion that is made for the built-in woman, whose walk is `walk_loop` and whose rest has the arms 45° down.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Made {
+    /// She walks straight on, turns left by 90° within a second, and walks straight on.
+    Corner,
+    /// She walks on the spot and turns to the left by 90° a second all the while.
+    Turning,
+    /// She stands, folds her arms before her, and lets them down.
+    ArmsFolded,
+    /// She sits down on no chair and stands up again.
+    Sitting,
+    /// She stretches out her arms and turns on the spot, in the end once a second.
+    Pirouette,
+}
+
+impl Made {
+    /// The motion of the built-in woman, who comes with her `walk_loop`.
+    ///
+    /// # Panics
+    /// When it is another body.
+    pub fn of(self, woman: &MovingMesh) -> MovingMesh {
+        match self {
+            Self::Corner => {
+                let heading = |time: f64| smooth((time - 1.5).clamp(0.0, 1.0)) * FRAC_PI_2;
+                carried(woman, &way(4.0, WALKING_SPEED, heading))
+            }
+            Self::Turning => carried(woman, &way(4.0, 0.0, |time| time * FRAC_PI_2)),
+            Self::ArmsFolded => {
+                posed(woman, "pelvis", &eased(&[(0.0, 0.0), (1.2, 1.0), (2.2, 1.0), (3.4, 0.0), (4.0, 0.0)], folded))
+            }
+            Self::Sitting => {
+                posed(woman, "pelvis", &eased(&[(0.0, 0.0), (0.3, 0.0), (1.8, 1.0), (2.8, 1.0), (4.3, 0.0)], seated))
+            }
+            Self::Pirouette => {
+                let arms = posed(woman, "pelvis", &[stretched(0.0), stretched(5.0)]);
+                // Faster and faster for a second, then once in a second.
+                let angle = |time: f64| TAU * (0.5 * time.min(1.0).powi(2) + (time - 1.0).max(0.0));
+                carried(&arms, &way(5.0, 0.0, angle))
+            }
+        }
+    }
+}
+
+/// The cubic 3s² − 2s³ of a share s.
+fn smooth(share: f64) -> f64 {
+    share * share * (3.0 - 2.0 * share)
+}
+
+/// A way of some seconds at a speed [m/s], whose heading from +z to +x is given at every time [rad].
+fn way(seconds: f64, speed: f64, heading: impl Fn(f64) -> f64) -> Vec<RigidKey> {
+    let mut place = DVec3::ZERO;
+    let keys = 0..=(seconds * WAY_RATE).round() as u32;
+    keys.map(|key| {
+        let time = f64::from(key) / WAY_RATE;
+        let rotation = DQuat::from_rotation_y(heading(time));
+        let here = RigidKey { time, translation: place, rotation };
+        place += rotation * DVec3::Z * (speed / WAY_RATE);
+        here
+    })
+    .collect()
+}
+
+/// Both sides of the body turned alike: about x, and against one another about y and z, by vectors of angles [degrees].
+fn sides(joints: [&'static str; 2], angles: DVec3) -> [(&'static str, DQuat); 2] {
+    let turn = |angles: DVec3| DQuat::from_scaled_axis(angles * TAU / 360.0);
+    [(joints[0], turn(angles)), (joints[1], turn(angles * dvec3(1.0, -1.0, -1.0)))]
+}
+
+/// The forearms lie across the belly, the left above the right.
+fn folded(time: f64, share: f64) -> Stance<'static> {
+    // At rest upper arm and forearm lie in one line, 45° down.
+    let arm = |joints: [&'static str; 2], side: f64, forearm: DVec3| {
+        let rest = dvec3(side, -1.0, 0.0).normalize();
+        let upper = DQuat::from_rotation_arc(rest, dvec3(0.25 * side, -0.9, 0.35).normalize());
+        let across = DQuat::from_rotation_arc(upper * rest, forearm.normalize());
+        // In the axes of the upper arm, which turns too.
+        let lower = upper.conjugate() * across * upper;
+        [(joints[0], DQuat::IDENTITY.slerp(upper, share)), (joints[1], DQuat::IDENTITY.slerp(lower, share))]
+    };
+    let left = arm(["upperarm_l", "lowerarm_l"], 1.0, dvec3(-0.85, 0.25, 0.5));
+    let right = arm(["upperarm_r", "lowerarm_r"], -1.0, dvec3(0.85, -0.1, 0.45));
+    Stance { time, turns: [left, right].concat(), shift: DVec3::ZERO }
+}
+
+/// Thighs level, shins upright, the trunk a little forward; the feet stay where they are.
+fn seated(time: f64, share: f64) -> Stance<'static> {
+    // From hip to knee; the shins stay upright.
+    let thigh = dvec3(0.0, -0.3632, 0.0311);
+    let angle = 85.0 * share;
+    let mut turns = sides(["thigh_l", "thigh_r"], dvec3(-angle, 0.0, 0.0)).to_vec();
+    turns.extend(sides(["calf_l", "calf_r"], dvec3(angle, 0.0, 0.0)));
+    turns.push(("spine_01", DQuat::from_rotation_x(0.2 * share)));
+    Stance { time, turns, shift: thigh - DQuat::from_rotation_x(-angle.to_radians()) * thigh }
+}
+
+/// The arms are level.
+fn stretched(time: f64) -> Stance<'static> {
+    Stance { time, turns: sides(["upperarm_l", "upperarm_r"], dvec3(0.0, 0.0, 45.0)).to_vec(), shift: DVec3::ZERO }
 }

@@ -4,12 +4,13 @@ use super::regions::Regions;
 use super::walker::Walker;
 use crate::fit;
 use crate::look::State;
-use crate::metrics::{Told, is_far, max_and_p99, middles, reach};
+use crate::metrics::{Told, is_far, reach};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use toile::Teleport;
 use toile::model::{Fit, Model, Solid, Status, Verdict, crossed_particles};
 use toile::scene::Mesh;
+use toile_lab::{max_and_p99, middles};
 use toile_reference::ExactDistance;
 
 /// What is measured of a walk. The names are stable.
@@ -253,7 +254,7 @@ impl WalkMetrics {
     pub fn line(&self) -> String {
         format!(
             "{}: {} particles · {} frames of {} steps · elongation {:.1} % (99 of 100: {:.1} %) · penetration {:.1} mm (99 of \
-             100: {:.1} mm) · false contacts {:.2} % · maps {:.0} ms, simulation {:.0} ms (bodies {:.0} ms), output {:.0} ms per frame",
+             100: {:.1} mm, edges {:.1} mm, faces {:.1} mm) · crossed {} · false contacts {:.2} % · maps {:.0} ms, simulation {:.0} ms (bodies {:.0} ms), output {:.0} ms per frame",
             self.garments.join(", "),
             self.particle_count,
             self.frame_count,
@@ -262,6 +263,9 @@ impl WalkMetrics {
             1e2 * self.elongation_p99_worst,
             self.penetration_max_mm,
             self.penetration_p99_worst_mm,
+            self.edge_penetration_max_mm,
+            self.face_penetration_max_mm,
+            self.crossed_count,
             1e2 * self.false_contact_fraction_mean,
             self.maps_ms_median,
             self.simulation_ms_median,
