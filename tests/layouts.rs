@@ -33,6 +33,7 @@ macro_rules! for_every_struct {
             Displacement,
             Influence,
             Joint,
+            Carry,
             Polish,
             PolishState,
             Status

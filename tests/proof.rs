@@ -6,7 +6,6 @@ use toile_kernels::Kernel;
 use toile_lab::kernels::Seeds;
 use toile_lab::scenes::{body, fabric, square};
 use toile_model::{Model, StepSettings};
-use toile_reference::maps::BodyMaps;
 use toile_reference::{Colliders, ObjectSpace, Reference};
 use toile_report::experiments::hard_cases::CASES;
 use toile_report::experiments::object_space::{Collision, Life, compare, image};
@@ -15,7 +14,7 @@ use toile_report::experiments::stability::{Corner, stable_step};
 use toile_report::experiments::validation::cusick::drape;
 use toile_report::experiments::validation::elastica::{ELASTICAS, Flexion, WEIGHT, cantilever_tip};
 use toile_report::experiments::validation::hanging::{CATENARIES, catenary_sag, hanging_strip};
-use toile_scene::{Fabric, Mesh, Rule, Settings};
+use toile_scene::{Fabric, MapKind, Mesh, Rule, Settings};
 use toile_workspace::{gpu, lab};
 
 #[test]
@@ -111,27 +110,31 @@ fn the_life_of_the_comparison_is_that_of_the_reference() {
     let corner = glam::DVec3::new(-0.3, 0.256, 0.3);
     let model = Model::from_sheet(&square(9, 0.6, corner, glam::DVec3::NEG_Z, Vec::new()), &settings);
     let step = StepSettings::new(&settings, &model);
-    let collision = image(&ball);
-    let Collision::Image(maps) = collision.clone() else { panic!("maps") };
-    let mut life = Life::new(&model, &step, &collision);
-    let mut reference =
-        Reference::new(&model, &step, Colliders { maps: Some(BodyMaps::Sides(maps)), shapes: Vec::new() });
-    for _ in 0..100 {
-        life.step();
-        reference.step();
+    for kind in [MapKind::Sides, MapKind::Layers] {
+        let collision = image(&ball, kind);
+        let Collision::Image(maps) = collision.clone() else { panic!("maps") };
+        let mut life = Life::new(&model, &step, &collision);
+        let mut reference = Reference::new(&model, &step, Colliders { maps: Some(maps), shapes: Vec::new() });
+        for _ in 0..100 {
+            life.step();
+            reference.step();
+        }
+        assert!(reference.contacts().iter().any(|contact| contact.touching), "it lies on the sphere");
+        assert_eq!(life.particles().positions, reference.positions());
     }
-    assert!(reference.contacts().iter().any(|contact| contact.touching), "it lies on the sphere");
-    assert_eq!(life.particles().positions, reference.positions());
 }
 
 #[test]
 fn image_space_keeps_the_cloth_out_at_least_as_well_as_object_space() {
     let body = body().expect("the built-in body");
     let object = Collision::Object(ObjectSpace::standing(&body));
-    let [image, object] = [image(&body), object].map(|collision| compare(&body, &collision, 21, 320));
-    // Thickness is 5 mm; texels are too.
-    assert!(image.contacts > 0 && image.particle_depth < 0.0 && image.midpoint_depth < 0.0, "{image:?}");
-    assert!(image.false_contacts < 0.05, "{image:?}");
+    let [sides, layers] = [MapKind::Sides, MapKind::Layers].map(|kind| image(&body, kind));
+    let [sides, layers, object] = [sides, layers, object].map(|collision| compare(&body, &collision, 21, 320));
+    for image in [sides, layers] {
+        // Thickness is 5 mm; texels are too.
+        assert!(image.contacts > 0 && image.particle_depth < 0.0 && image.midpoint_depth < 0.0, "{image:?}");
+        assert!(image.false_contacts < 0.05, "{image:?}");
+    }
     assert!(object.contacts > 0 && object.particle_depth < 0.0, "{object:?}");
 }
 

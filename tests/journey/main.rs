@@ -2,6 +2,8 @@
 
 mod clock;
 mod dressing;
+mod headings;
+mod jumps;
 mod layers;
 mod saved;
 mod sewing;

@@ -242,6 +242,10 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
             see("has two members", sizes.iter().filter(|size| **size == 2).count());
             see("has more members", sizes.iter().filter(|size| **size > 2).count());
         }
+        Kernel::CarryParticles => {
+            see("touches a body", before.contacts.iter().filter(|contact| contact.touching).count());
+            see("is turned", particles().filter(|i| changed(*i)).count());
+        }
         // The saboteurs change each line of every kernel, and so tell of the others that the input reaches it.
         _ => {}
     }

@@ -121,6 +121,9 @@ pub struct Walk {
     /// What is worn; the body is an animated glTF or GLB.
     #[command(flatten)]
     pub outfit: Outfit,
+    /// A motion that is made for the built-in body, in place of a clip.
+    #[arg(long, value_enum, conflicts_with_all = ["body", "clip"])]
+    pub motion: Option<MotionName>,
     /// Length of the walk [s]; without it, that of the clip.
     #[arg(long, value_name = "SECONDS", value_parser = parse_time)]
     pub seconds: Option<f64>,
@@ -133,6 +136,12 @@ pub struct Walk {
     /// Velocity of the air [m/s]; without it there is no air. Garments are dressed without it.
     #[arg(long, value_name = "X,Y,Z", value_parser = parse_velocity, allow_hyphen_values = true)]
     pub wind: Option<DVec3>,
+    /// Height of the pictures in pixels.
+    #[arg(long, value_name = "PIXELS", default_value_t = 480, value_parser = clap::value_parser!(u32).range(40..=2160))]
+    pub height: u32,
+    /// From where the pictures look; repeat it for several side by side.
+    #[arg(long, value_enum, default_values_t = [ViewName::ThreeQuarter, ViewName::Side])]
+    pub view: Vec<ViewName>,
     /// Draw the maps of a clip that repeats once, and keep them: faster frames for more memory.
     #[arg(long)]
     pub precompute_maps: bool,
@@ -215,6 +224,34 @@ pub enum Unit {
     Mm,
     /// Inch.
     In,
+}
+
+/// A motion that is made for the built-in body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum MotionName {
+    /// Walks on, turns left by 90° and walks on.
+    Corner,
+    /// Walks on the spot and turns.
+    Turning,
+    /// Folds her arms and lets them down.
+    ArmsFolded,
+    /// Sits down and stands up.
+    Sitting,
+    /// Turns once a second.
+    Pirouette,
+}
+
+/// From where a picture looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ViewName {
+    /// From +z.
+    Front,
+    /// From −z.
+    Back,
+    /// From +x.
+    Side,
+    /// From between front and side.
+    ThreeQuarter,
 }
 
 impl Unit {

@@ -2,13 +2,11 @@
 
 mod contact;
 mod frames;
-mod largest;
 mod measures;
 mod told;
 
-pub use contact::{Surfaces, is_far, middles, reach};
+pub use contact::{Surfaces, is_far, reach};
 pub use frames::StrainRow;
-pub use largest::max_and_p99;
 pub use measures::Measures;
 pub use told::Told;
 

@@ -38,8 +38,6 @@ use walker::Walker;
 
 /// Frames in the strip.
 const STRIP_COUNT: u32 = 6;
-/// Height of the pictures [px].
-const PICTURE_HEIGHT: u32 = 480;
 /// What ctrl-c leaves of a walk that has begun.
 const KEPT: &str = "interrupted: every frame so far is kept, go on with --resume";
 
@@ -57,6 +55,10 @@ pub struct Walk {
     pub precompute_maps: bool,
     /// Whether to go on where an interrupted walk ended.
     pub resume: bool,
+    /// Height of the pictures [px].
+    pub height: u32,
+    /// From where they look.
+    pub views: Vec<View>,
 }
 
 impl Walk {
@@ -131,6 +133,9 @@ pub fn walk(walk: &Walk, running: &Running) -> Result<Outcome> {
     if running.json {
         print(&text)?;
     } else if !running.quiet {
+        for jump in metrics.jumps() {
+            print(&jump)?;
+        }
         print(&metrics.line())?;
         print(&format!("wrote {}", running.out.display()))?;
     }
@@ -178,6 +183,7 @@ fn simulate(walk: &Walk, gpu: &Gpu, simulation: &mut Simulation, saved: &Saved, 
     let stage = Stage::new(&walk.body, f64::from(walk.frame_count) * seconds);
     std::fs::create_dir_all(&running.out)?;
     let progress = progress(walk.frame_count, done, running.quiet);
+    let mut told = 0;
     let before = simulation.cloths().map(|worn| Ok(worn.cloth.status()?.unwrap_or_default()));
     let mut last: Vec<Status> = before.collect::<Result<_>>()?;
     for frame in done + 1..=walk.frame_count {
@@ -188,6 +194,9 @@ fn simulate(walk: &Walk, gpu: &Gpu, simulation: &mut Simulation, saved: &Saved, 
         let body = walk.body.at(time);
         let (exact, mut inner) = ((ExactDistance::new(&body), Solid::of([&body])), Vec::new());
         let mut row = FrameRow::new(frame, time, maps_ms, simulated_ms);
+        row.teleports = simulation.teleports().to_vec();
+        row.teleports.drain(..told);
+        told += row.teleports.len();
         let (mut points, mut cloths) = (Vec::new(), Vec::new());
         for (worn, last) in simulation.cloths().zip(&mut last) {
             let status = status(worn.cloth)?;
@@ -203,7 +212,7 @@ fn simulate(walk: &Walk, gpu: &Gpu, simulation: &mut Simulation, saved: &Saved, 
             }
             cloths.push(mesh);
         }
-        let views = draw(&body, &cloths, walk.settings.fabric.thickness, stage.at(time))?;
+        let views = draw(walk, &body, &cloths, stage.at(time))?;
         picture::save_png(&picture_path(&running.out, frame), &picture::strip(&views))?;
         row.output_ms = 1e3 * output.elapsed().as_secs_f64();
         saved.write(frame, &simulation.save(&gpu.queue)?, &points, Some(&row))?;
@@ -224,6 +233,7 @@ fn collision_part(gpu: &Gpu, simulation: &mut Simulation) -> Result<f64> {
                 Kernel::Reaction
                 | Kernel::QuadMidpoints
                 | Kernel::SampleMovingSides
+                | Kernel::SampleMovingLayers
                 | Kernel::Collide
                 | Kernel::KeepOut => {
                     collision += time.milliseconds;
@@ -247,24 +257,25 @@ fn progress(frame_count: u32, done: u32, quiet: bool) -> ProgressBar {
     bar
 }
 
-/// The two views of a frame.
-fn draw(body: &Mesh, cloths: &[Mesh], thickness: f64, stage: [Vec3; 2]) -> Result<Vec<RgbImage>> {
+/// The views of a frame.
+fn draw(walk: &Walk, body: &Mesh, cloths: &[Mesh], stage: [Vec3; 2]) -> Result<Vec<RgbImage>> {
+    let thickness = walk.settings.fabric.thickness;
     let mut drawn = vec![Drawn::body(body)];
     drawn.extend(cloths.iter().enumerate().map(|(i, mesh)| Drawn::cloth(mesh, i, thickness)));
-    let views = [View::ThreeQuarter, View::Side].map(|view| picture::render_in(&drawn, stage, view, PICTURE_HEIGHT));
-    Ok(views.into_iter().collect::<Result<Vec<_>, _>>()?)
+    let views = walk.views.iter().map(|view| picture::render_in(&drawn, stage, *view, walk.height));
+    Ok(views.collect::<Result<Vec<_>, _>>()?)
 }
 
 fn picture_path(folder: &Path, frame: u32) -> std::path::PathBuf {
     folder.join(format!("frame_{frame:04}.png"))
 }
 
-/// Draws some frames side by side, the first view above the second.
+/// Draws some frames side by side, one view above the other.
 fn draw_strip(walk: &Walk, walkers: &[Walker], saved: &Saved, folder: &Path) -> Result<()> {
     let seconds = 1.0 / walk.settings.frame_rate;
     let stage = Stage::new(&walk.body, f64::from(walk.frame_count) * seconds);
     let count = STRIP_COUNT.min(walk.frame_count);
-    let mut views = [Vec::new(), Vec::new()];
+    let mut views = vec![Vec::new(); walk.views.len()];
     for index in 1..=count {
         let frame = index * walk.frame_count / count;
         let time = f64::from(frame) * seconds;
@@ -275,10 +286,13 @@ fn draw_strip(walk: &Walk, walkers: &[Walker], saved: &Saved, folder: &Path) -> 
             Ok(mesh)
         };
         let cloths = walkers.iter().enumerate().map(cloth).collect::<Result<Vec<_>>>()?;
-        let drawn = draw(&walk.body.at(time), &cloths, walk.settings.fabric.thickness, stage.at(time))?;
+        let drawn = draw(walk, &walk.body.at(time), &cloths, stage.at(time))?;
         views.iter_mut().zip(drawn).for_each(|(row, view)| row.push(view));
     }
-    Ok(picture::save_png(&folder.join("walk.png"), &picture::stack(&views.map(|row| picture::strip(&row))))?)
+    Ok(picture::save_png(
+        &folder.join("walk.png"),
+        &picture::stack(&views.iter().map(|row| picture::strip(row)).collect::<Vec<_>>()),
+    )?)
 }
 
 /// Writes the motion and the moving picture from what was saved of each frame.

@@ -7,7 +7,7 @@ use crate::trail::{dispatch, sized, vertices_uniform};
 use crate::{GpuError, Program, Surface, Trail};
 use glam::Vec3;
 use toile_kernels::Kernel;
-use toile_scene::{MeshSequence, Motion, MovingMesh, Pose, Rig, Skin};
+use toile_scene::{Lead, MeshSequence, Motion, MovingMesh, Pose, Rig, Skin};
 use wgpu::util::DeviceExt;
 
 /// A body that moves, on the device.
@@ -16,6 +16,7 @@ pub struct MovingBody {
     surface: Surface,
     trail: Trail,
     poser: Poser,
+    lead: Option<Lead>,
     /// Time of the last pose [s]; `None` before the first.
     time: Option<f64>,
     bytes: u64,
@@ -84,11 +85,16 @@ impl MovingBody {
             }
             Motion::Sequence(sequence) => Poser::Sequence(sequence.clone()),
         };
-        Ok(Self { surface, trail, poser, time: None, bytes })
+        Ok(Self { surface, trail, poser, lead: body.lead(), time: None, bytes })
     }
 
-    /// Records the pose at a time [s], and the velocities since the pose before; the first pose stands still.
+    /// Records the pose at a time [s], and the velocities since the pose before; the first pose stands still. A body that [jumps](Lead::jump)
+    /// between the two has velocities as if the pose before had been where it jumps to.
     pub fn record_pose(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, time: f64) {
+        let jump = self.time.zip(self.lead.as_ref()).and_then(|(last, lead)| Some((last, lead.jump(last, time)?)));
+        if let (Some((last, jump)), Poser::Joints(joints)) = (jump, &self.poser) {
+            joints.record(device, encoder, &joints.rig.carried_pose(last, jump.matrix()));
+        }
         self.trail.record_leaving(encoder);
         match &self.poser {
             Poser::Joints(joints) => joints.record(device, encoder, &joints.rig.pose(time)),

@@ -97,7 +97,7 @@ impl Plan {
                     step.extend(polish(&group_passes, &sweep, settings.polish.map_or(0, |polish| polish.sweeps)));
                 }
                 Stage::Frame => frame.extend(group_passes),
-                Stage::Pose | Stage::Maps | Stage::Handover | Stage::Measure => {}
+                Stage::Pose | Stage::Maps | Stage::Handover | Stage::Jump | Stage::Measure => {}
             }
         }
         Self { step, frame, spans }

@@ -1,13 +1,15 @@
 //! The solver: records the passes of a plan.
 
 use crate::buffers::{Buffers, Start, aligned, shape_entry};
+use crate::contents::uniform;
 use crate::limits::check_limits;
 use crate::status::StatusReader;
 use crate::timing::{PassTime, Timer};
 use crate::{BodyMaps, GpuError, Maps, Pass, Plan, Program};
+use glam::DMat4;
 use std::collections::BTreeMap;
 use std::ops::Range;
-use toile_kernels::{Kernel, Role};
+use toile_kernels::{Kernel, Role, structs};
 use toile_model::{Merge, Model, Status, StepSettings};
 use toile_scene::Shape;
 use wgpu::util::DeviceExt;
@@ -38,6 +40,8 @@ pub struct Solver {
     particle_count: u32,
     status: StatusReader,
     step: u64,
+    /// Made with the first jump: most cloths see none.
+    carrier: Option<Program>,
 }
 
 /// Where a step stands, for the uniforms that change with it.
@@ -156,6 +160,7 @@ impl Solver {
             particle_count: model.particle_count(),
             status: StatusReader::new(device),
             step: 0,
+            carrier: None,
             buffers,
         })
     }
@@ -317,6 +322,36 @@ impl Solver {
         compute.set_bind_group(0, &group, &[]);
         compute.dispatch_workgroups(x, y, 1);
         self.step = open.step;
+    }
+
+    /// Records that the cloth is carried by a rigid transform, with its velocities and what it touched, as if it had always been there.
+    pub fn record_carry(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, carry: DMat4) {
+        let program = self.carrier.get_or_insert_with(|| Program::new(device, Kernel::CarryParticles));
+        let [row_x, row_y, row_z] = [0, 1, 2].map(|row| carry.row(row).as_vec4());
+        let carry = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("carry"),
+            contents: &uniform(&structs::Carry { row_x, row_y, row_z }),
+            usage: wgpu::BufferUsages::UNIFORM,
+        });
+        // A cloth that meets no body touches nothing: what the kernel turns then is thrown away.
+        let nothing = self.buffers.find("contacts").is_none().then(|| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("contacts of no body"),
+                size: 2 * self.buffers.get("positions").size(),
+                usage: wgpu::BufferUsages::STORAGE,
+                mapped_at_creation: false,
+            })
+        });
+        let group = program.bind(device, |binding| match (binding.name.as_str(), &nothing) {
+            ("carry", _) => carry.as_entire_binding(),
+            ("contacts", Some(nothing)) => nothing.as_entire_binding(),
+            (name, _) => self.buffers.binding(name),
+        });
+        let [x, y] = Pass::over(Kernel::CarryParticles, self.particle_count).workgroups();
+        let mut compute = encoder.begin_compute_pass(&labelled("a cloth is carried"));
+        compute.set_pipeline(program.pipeline());
+        compute.set_bind_group(0, &group, &[]);
+        compute.dispatch_workgroups(x, y, 1);
     }
 
     /// The newest status that has arrived, without waiting; `None` before the first frame is done.

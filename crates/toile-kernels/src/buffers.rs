@@ -133,6 +133,7 @@ buffers! {
     "open_velocities" Listed Brought;
     "member_offsets" Listed Brought;
     "members" Listed Brought;
+    "carry" Cloth Brought;
     "position_copies" Particle Brought;
     "velocity_copies" Particle Brought;
 }

@@ -374,6 +374,16 @@ shared_structs! {
         row_z: vec4,
     }
 
+    /// First three rows of the rigid transform that carries a cloth along with a body that jumps.
+    Carry {
+        /// Row of x.
+        row_x: vec4,
+        /// Row of y.
+        row_y: vec4,
+        /// Row of z.
+        row_z: vec4,
+    }
+
     /// Further sweeps in the steps that need them.
     Polish {
         /// Elongation that needs no further sweep [1].

@@ -23,6 +23,8 @@ pub enum Stage {
     Frame,
     /// Once, when the open model becomes the sewn one.
     Handover,
+    /// When the body is set elsewhere at once.
+    Jump,
     /// Only when a run is measured.
     Measure,
 }
@@ -249,6 +251,8 @@ kernels! {
     SeamStatus "frame" "seam_status" Frame SeamPair Seams;
     /// From the open to the sewn model.
     MergeParticles "frame" "merge_particles" Handover Particle Nothing;
+    /// The cloth goes along with a body that jumps.
+    CarryParticles "frame" "carry_particles" Jump Particle Nothing;
     /// The unit of cost.
     StateCopy "frame" "state_copy" Measure Particle Nothing;
 }

@@ -1,9 +1,9 @@
 //! The fixtures, read as the program reads them.
 
 use std::path::PathBuf;
-use toile::files::{BodyOptions, read_body, read_garment, read_scene};
+use toile::files::{BodyOptions, read_body, read_garment, read_moving_body, read_scene};
 use toile::model::Model;
-use toile::scene::{Body, Cloth, Fabric, Garment, Mesh, Scene, Settings, Shape};
+use toile::scene::{Body, Cloth, Fabric, Garment, Mesh, MovingMesh, Scene, Settings, Shape};
 
 /// Names of the scenes in `fixtures/scenes`.
 pub const SCENES: [&str; 3] = ["hang", "ball", "moving-ball"];
@@ -50,6 +50,12 @@ pub fn garment(name: &str) -> Garment {
 pub fn body() -> Mesh {
     let options = BodyOptions { clip: Some("apose_to_walk".to_owned()), ..Default::default() };
     read_body(&fixture("bodies/walking_woman.glb"), &options).unwrap_or_else(|error| panic!("{error}")).mesh
+}
+
+/// The built-in body with one of its clips.
+pub fn woman(clip: &str) -> MovingMesh {
+    let options = BodyOptions { clip: Some(clip.to_owned()), ..Default::default() };
+    read_moving_body(&fixture("bodies/walking_woman.glb"), &options).unwrap_or_else(|error| panic!("{error}")).body
 }
 
 /// Settings of a garment in cotton at a spacing [m], as the program dresses it.

@@ -1,5 +1,6 @@
 //! The kernels that run once per frame, and those of the handover.
 
+mod carry_particles;
 mod limit_status;
 mod longest_limit;
 mod merge_particles;
@@ -10,6 +11,7 @@ mod seam_status;
 mod state_copy;
 mod total_energy;
 
+pub use carry_particles::carry_particles;
 pub use limit_status::{LimitStatus, limit_status};
 pub use longest_limit::longest_limit;
 pub use merge_particles::merge_particles;

@@ -4,7 +4,7 @@ use crate::limits::{self, part};
 use crate::maps::BodyMaps;
 use crate::step::PolishState;
 use crate::{Contact, Lag, Particles, Probe, digest, frame, step};
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 use toile_model::{Merge, Model, ShapeStep, Status, StepSettings};
 use toile_scene::{Polish, Rule, Shape};
 
@@ -115,6 +115,11 @@ impl Reference {
     pub fn set_maps(&mut self, maps: BodyMaps) {
         assert!(self.colliders.maps.is_some(), "a simulation without maps does not get any later");
         self.colliders.maps = Some(maps);
+    }
+
+    /// Carries the cloth by the first three rows of a rigid transform, with its velocities and what it touched.
+    pub fn carry(&mut self, rows: [Vec4; 3]) {
+        frame::carry_particles(&mut self.particles, &mut self.contacts, rows);
     }
 
     /// Does one step, at whose end the maps show the bodies.

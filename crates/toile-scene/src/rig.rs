@@ -255,11 +255,31 @@ impl Rig {
 
     /// Where the joints stand at a time [s], rounded to f32. A closed clip repeats; any other stands still after its end.
     pub fn pose(&self, time: f64) -> Pose {
-        let rows = |matrix: &DMat4| [0, 1, 2].map(|row| matrix.row(row).as_vec4());
+        self.rounded(time, |matrix| matrix)
+    }
+
+    /// The same, carried by a transform of the world [m].
+    pub fn carried_pose(&self, time: f64, carry: DMat4) -> Pose {
+        self.rounded(time, |matrix| carry * matrix)
+    }
+
+    fn rounded(&self, time: f64, carried: impl Fn(DMat4) -> DMat4) -> Pose {
+        let rows = |matrix: DMat4| [0, 1, 2].map(|row| matrix.row(row).as_vec4());
         Pose {
-            joints: self.joint_matrices(time).iter().map(rows).collect(),
+            joints: self.joint_matrices(time).into_iter().map(|matrix| rows(carried(matrix))).collect(),
             morph_weights: self.morph_weights(time).into_iter().map(|weight| weight as f32).collect(),
         }
+    }
+
+    /// World transform of the node of a joint at a time [s], its place in metres.
+    pub fn joint_place(&self, joint: usize, time: f64) -> DMat4 {
+        DMat4::from_scale(DVec3::splat(self.0.metres_per_unit)) * self.node_transforms(time)[self.0.joints[joint].node]
+    }
+
+    /// How many nodes carry that of a joint.
+    pub(crate) fn depth(&self, joint: usize) -> usize {
+        let parent = |node: &usize| self.0.nodes[*node].parent;
+        std::iter::successors(parent(&self.0.joints[joint].node), parent).count()
     }
 
     /// From bind space to the world [m] for each joint at a time [s].
@@ -298,6 +318,16 @@ impl Rig {
     /// Names of the joints, in the order of [`Pose::joints`].
     pub fn joint_names(&self) -> impl Iterator<Item = &str> {
         self.0.joints.iter().map(|joint| joint.name.as_str())
+    }
+
+    /// The nodes, which [`Joint::node`] and channels point into.
+    pub fn nodes(&self) -> &[RigNode] {
+        &self.0.nodes
+    }
+
+    /// Length of the unit of the rig [m].
+    pub fn metres_per_unit(&self) -> f64 {
+        self.0.metres_per_unit
     }
 
     /// The clip, if anything moves.

@@ -10,6 +10,8 @@ use toile_scene::{MapKind, MovingMesh};
 const BOUNDS_RATE: f64 = 60.0;
 /// What the table adds on every side [m]: a body goes no farther between two of its times, and inner garments hang out of it.
 const BOUNDS_MARGIN: f32 = 0.03;
+/// So many parts of a jump are looked at for the size of the maps.
+const PARTS: u32 = 8;
 /// What is added around a body for the garments that lie under another one [m].
 const GARMENT_MARGIN: f32 = 0.25;
 
@@ -22,8 +24,18 @@ pub(crate) struct Boxes {
     margin: f32,
     texel: f32,
     size: [u32; 3],
+    jumps: Option<Jumps>,
     /// Largest area of all bodies together [m²].
     area: f64,
+}
+
+/// Where a body jumps: the box around both ends would be as large as the jump is far.
+#[derive(Clone, Debug)]
+struct Jumps {
+    body: MovingMesh,
+    still: Vec<[Vec3; 2]>,
+    /// Times of the table after which it jumps.
+    indices: Vec<usize>,
 }
 
 /// What the maps of an outfit must hold, and where they stand.
@@ -85,11 +97,21 @@ impl Boxes {
             [only] if only.is_closed() => Some(only.duration()),
             _ => None,
         };
-        let mut boxes = Self { bounds, round, margin, texel, size: [0; 3], area };
-        let sizes = (0..count as usize).map(|index| {
-            let [low, high] = boxes.between(index);
+        let jumps = match moving {
+            [only] => Jumps::of(only, still, count as usize),
+            _ => None,
+        };
+        let mut boxes = Self { bounds, round, margin, texel, size: [0; 3], jumps, area };
+        let size_at = |time| {
+            let [low, high] = boxes.around(time);
             high - low
-        });
+        };
+        let times = (0..count).map(f64::from);
+        // On its way from one key to the next a body that jumps may turn.
+        let on_the_way = boxes.jumps.iter().flat_map(|jumps| &jumps.indices);
+        let on_the_way =
+            on_the_way.flat_map(|index| (1..PARTS).map(|k| *index as f64 + f64::from(k) / f64::from(PARTS)));
+        let sizes = times.chain(on_the_way).map(|index| size_at(index / BOUNDS_RATE));
         let largest = sizes.fold(Vec3::ZERO, Vec3::max);
         boxes.size = MapBox::size_for(largest, texel);
         Ok(boxes)
@@ -103,15 +125,38 @@ impl Boxes {
     /// The box at a time [s].
     pub(crate) fn at(&self, time: f64) -> MapBox {
         let time = self.round.map_or(time, |round| time.rem_euclid(round)).max(0.0);
-        // A time of the table stays one whatever the rounding: boxes of the same pose are then the same.
-        MapBox::moving(self.between((time * BOUNDS_RATE + 1e-4) as usize), self.texel, self.size)
+        MapBox::moving(self.around(time), self.texel, self.size)
     }
 
-    /// The box around the bodies from one time of the table to the next.
-    fn between(&self, index: usize) -> [Vec3; 2] {
+    /// The box around the bodies from one time of the table to the next; where a body jumps between them, around where it stands.
+    fn around(&self, time: f64) -> [Vec3; 2] {
+        // A time of the table stays one whatever the rounding: boxes of the same pose are then the same.
+        let index = (time * BOUNDS_RATE + 1e-4) as usize;
         let last = self.bounds.len() - 1;
-        let [low, high] = around_both(self.bounds[index.min(last)], self.bounds[(index + 1).min(last)]);
+        let [low, high] = match &self.jumps {
+            Some(jumps) if jumps.indices.contains(&index) => jumps.around(time),
+            _ => around_both(self.bounds[index.min(last)], self.bounds[(index + 1).min(last)]),
+        };
         [low - self.margin, high + self.margin]
+    }
+}
+
+impl Jumps {
+    /// The jumps of a body among boxes that stand still; `None` without any.
+    fn of(body: &MovingMesh, still: &[[Vec3; 2]], count: usize) -> Option<Self> {
+        let lead = body.lead()?;
+        let jumps = |index: &usize| {
+            let [from, to] = [*index, index + 1].map(|index| index as f64 / BOUNDS_RATE);
+            lead.jump(from, to).is_some()
+        };
+        let indices: Vec<usize> = (0..count).filter(jumps).collect();
+        (!indices.is_empty()).then(|| Self { body: body.clone(), still: still.to_vec(), indices })
+    }
+
+    /// The box around everything at a time [s].
+    fn around(&self, time: f64) -> [Vec3; 2] {
+        let stands = self.body.at(time).bounds();
+        self.still.iter().copied().chain(stands).reduce(around_both).unwrap_or_default()
     }
 }
 
@@ -136,6 +181,19 @@ mod tests {
         let lost = ball(&[(0.0, 0.0), (0.5, 0.1), (1.0, 1e39)]);
         let error = Boxes::new(&[lost], &[], 0.01, 0.0, false).expect_err("it leaves");
         assert!(error.to_string().starts_with("the body has no finite position at 0."), "{error}");
+    }
+
+    #[test]
+    fn a_jump_makes_the_maps_no_larger() {
+        let still = Boxes::new(&[ball(&[(0.0, 0.0), (1.0, 0.1)])], &[], 0.01, 0.002, false).expect("all is finite");
+        let jump = [(0.0, 0.0), (0.505, 0.05), (0.505, 300.05), (1.0, 300.1)];
+        let boxes = Boxes::new(&[ball(&jump)], &[], 0.01, 0.002, false).expect("all is finite");
+        assert_eq!(boxes.size, still.size);
+        for time in [0.5, 0.504, 0.506, 0.516] {
+            let x = 0.1 * time as f32 + if time > 0.505 { 300.0 } else { 0.0 };
+            let map_box = boxes.at(time);
+            assert!(map_box.corner().x < x - 0.25 && map_box.far_corner().x > x + 0.25, "{time} s: {map_box:?}");
+        }
     }
 
     #[test]

@@ -138,6 +138,12 @@ impl Cloth {
         self.solver.record_steps(device, encoder, steps, interval);
     }
 
+    /// Records that the cloth is carried by a rigid transform, with its velocities and what it touched, as if it had always been there: for hosts
+    /// that set what they dress elsewhere at once. A [`Simulation`](crate::Simulation) does so by itself where its body jumps.
+    pub fn record_carry(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, carry: glam::DMat4) {
+        self.solver.record_carry(device, encoder, carry);
+    }
+
     /// Records that a cloth of the same model takes the state of this one.
     pub(crate) fn record_state(&self, encoder: &mut wgpu::CommandEncoder, to: &Cloth) {
         for (name, from) in self.solver.state() {

@@ -21,6 +21,7 @@ pub use clock::Advance;
 pub use cloth::{Cloth, Colliders};
 pub use error::Error;
 pub use frame::Frame;
+pub use outfit::Teleport;
 pub use simulation::{Simulation, Worn};
 pub use stage::Stage;
 pub use strain::Strain;

@@ -2,14 +2,18 @@
 
 use crate::boxes::{Boxes, MapPlan};
 use crate::{Cloth, Colliders, Error};
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::sync::Arc;
 use toile_gpu::{BodyMaps, MapsFault, MovingBody, Surface, Trail};
 use toile_model::{MapBox, Model, StepSettings};
-use toile_scene::{Mesh, MovingMesh, Shape};
+use toile_scene::{Lead, Mesh, MovingMesh, Shape};
 
 /// Maps of moving bodies are drawn so often at least [1/s]; in between, surfaces go straight on by the velocity map.
 const MAP_RATE: f64 = 60.0;
+
+/// Parts of a jump that begin within this time of its start are one [s]: as long as a jump may last.
+const MERGED_SECONDS: f64 = 0.1;
 
 /// What the cloths of an outfit collide with.
 #[derive(Clone, Debug, Default)]
@@ -17,6 +21,26 @@ pub(crate) struct Bodies {
     pub(crate) still: Vec<Mesh>,
     pub(crate) moving: Vec<MovingMesh>,
     pub(crate) shapes: Vec<Shape>,
+}
+
+/// A cloth of an outfit before it is on the device.
+#[derive(Clone, Debug)]
+pub(crate) struct Laid<'a> {
+    pub(crate) model: &'a Model,
+    pub(crate) step: StepSettings,
+    /// Whether a body wears it, and takes it along where it jumps; a sheet only lies there.
+    pub(crate) is_worn: bool,
+}
+
+/// A body that was set elsewhere at once and took its garments along.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Teleport {
+    /// When, in the motion of the body [s]: the last time at which it stood where it was.
+    pub time: f64,
+    /// How far its leading joint went [m].
+    pub distance: f64,
+    /// How far it turned [rad].
+    pub angle: f64,
 }
 
 /// Which part of the work is recorded.
@@ -48,6 +72,9 @@ pub(crate) struct Outfit {
     done: u64,
     /// The interval at whose end the bodies stand; `None` before their first pose.
     posed: Option<u64>,
+    /// What leads the body that wears the garments; `None` where nobody does, or more than one.
+    lead: Option<Lead>,
+    teleports: Vec<Teleport>,
     layers: Vec<Layer>,
     kept: Option<KeptMaps>,
 }
@@ -65,6 +92,7 @@ struct KeptMaps {
 #[derive(Debug)]
 struct Layer {
     cloth: Cloth,
+    is_worn: bool,
     maps: Option<Arc<BodyMaps>>,
     /// What the maps of the next cloth draw of this one; the outermost has none.
     seen: Option<Seen>,
@@ -92,13 +120,13 @@ impl Outfit {
     pub(crate) fn new(
         device: &wgpu::Device,
         bodies: &Bodies,
-        cloths: &[(&Model, StepSettings)],
+        cloths: &[Laid<'_>],
         map_plan: MapPlan,
         frame_rate: f64,
         alike: Option<&Cloth>,
     ) -> Result<Self, Error> {
-        let thickness = cloths.iter().map(|(_, settings)| settings.thickness).fold(0.0, f32::max);
-        let maps_per_frame = cloths.first().map_or(1, |(_, step)| maps_per_frame(step.steps_per_frame, frame_rate));
+        let thickness = cloths.iter().map(|cloth| cloth.step.thickness).fold(0.0, f32::max);
+        let maps_per_frame = cloths.first().map_or(1, |cloth| maps_per_frame(cloth.step.steps_per_frame, frame_rate));
         let space = map_plan.space();
         let texel = space.as_ref().map_or(1.0, |space| space.map_box.texel);
         let moving = bodies.moving.iter().map(|body| MovingBody::new(device, body, texel));
@@ -111,7 +139,7 @@ impl Outfit {
         let has_meshes = !(moving.is_empty() && still.is_empty());
         let outermost = cloths.len().saturating_sub(1);
         let mut layers: Vec<Layer> = Vec::new();
-        for (model, step) in cloths {
+        for Laid { model, step, is_worn } in cloths {
             // Where there is no body to see, the innermost cloth sees nothing.
             let space = space.as_ref().filter(|_| has_meshes || !layers.is_empty());
             let drawn = layers.iter().find_map(|layer| layer.maps.as_ref());
@@ -132,8 +160,12 @@ impl Outfit {
                 let surface = Surface { velocities: Some(trail.velocities().clone()), ..drawn.surface(device) };
                 Seen { surface, trail }
             });
-            layers.push(Layer { cloth, maps, seen });
+            layers.push(Layer { cloth, is_worn: *is_worn, maps, seen });
         }
+        let lead = match bodies.moving.as_slice() {
+            [only] if layers.iter().any(|layer| layer.is_worn) => only.lead(),
+            _ => None,
+        };
         Ok(Self {
             moving,
             still,
@@ -144,6 +176,8 @@ impl Outfit {
             maps_per_frame,
             done: 0,
             posed: None,
+            lead,
+            teleports: Vec::new(),
             layers,
             kept: None,
         })
@@ -233,6 +267,9 @@ impl Outfit {
         while self.done < parts.end {
             let (interval, first) = self.place_in_interval(self.done);
             self.pose(device, interval, recorder)?;
+            if first == 0 {
+                self.carry_garments(device, interval, recorder)?;
+            }
             let steps = match self.layers.as_mut_slice() {
                 [only] => {
                     let all = only.cloth.settings().steps_per_frame / self.maps_per_frame;
@@ -278,6 +315,35 @@ impl Outfit {
             return Ok(());
         }
         recorder(Part::Maps, &mut |encoder| self.record_maps(device, encoder, time))
+    }
+
+    /// Has the garments go along with a body that jumps in an interval: at its start, because the maps already show where the body ends.
+    fn carry_garments(
+        &mut self,
+        device: &wgpu::Device,
+        interval: u64,
+        recorder: &mut Recorder<'_>,
+    ) -> Result<(), Error> {
+        let [from, to] = [interval, interval + 1].map(|interval| self.time_of(interval));
+        let Some(jump) = self.lead.as_ref().and_then(|lead| lead.jump(from, to)) else { return Ok(()) };
+        match self.teleports.last_mut().filter(|last| from - last.time < MERGED_SECONDS) {
+            // Between two keys of a clip a jump has several parts.
+            Some(last) => {
+                last.distance += jump.distance;
+                last.angle += jump.angle;
+            }
+            None => self.teleports.push(Teleport { time: from, distance: jump.distance, angle: jump.angle }),
+        }
+        recorder(Part::Steps, &mut |encoder| {
+            for layer in self.layers.iter_mut().filter(|layer| layer.is_worn) {
+                layer.cloth.record_carry(device, encoder, jump.matrix());
+            }
+        })
+    }
+
+    /// How often the body took the garments along, since the outfit goes.
+    pub(crate) fn teleports(&self) -> &[Teleport] {
+        &self.teleports
     }
 
     /// Records the pose of the bodies at a time [s], and what the innermost cloth sees of them.

@@ -4,15 +4,13 @@ use crate::boxes::{Boxes, MapPlan, around_both};
 use crate::clock::{Advance, Clock};
 use crate::dressed::{Bounds, Done, Dressed};
 use crate::fitting::Fitting;
-use crate::outfit::{Bodies, Outfit, Part, Recorder, maps_of_round, maps_per_frame};
+use crate::outfit::{Bodies, Laid, Outfit, Part, Recorder, Teleport, maps_of_round, maps_per_frame};
 use crate::stage::Stage;
 use crate::{Cloth, Colliders, Error, pose};
 use glam::Vec3;
 use std::sync::Arc;
 use toile_gpu::{BodyMaps, MapSpace, Surface, readback};
-use toile_model::{
-    Dressing, DressingStage, Finding, Fit, FitOptions, Judged, MapBox, Model, Piece, Solid, StepSettings, Verdict,
-};
+use toile_model::{Dressing, DressingStage, Finding, Fit, FitOptions, Judged, MapBox, Model, Piece, Solid, Verdict};
 use toile_scene::{Body, Mesh, MovingMesh, Scene, Settings};
 
 /// Time that garments have to hang quietly once the body has gone over to the start of its motion [s].
@@ -397,12 +395,12 @@ impl Simulation {
         let rate = self.settings.frame_rate;
         let first = self.pieces.first().map_or(1, |piece| piece.step.steps_per_frame);
         let parts = maps_per_frame(first, rate);
-        let cloths: Vec<(&Model, StepSettings)> = self
+        let cloths: Vec<Laid<'_>> = self
             .pieces
             .iter()
             .map(|piece| {
                 let step = if on_the_way.is_some() { piece.step.easing() } else { piece.step.clone() };
-                (&piece.model, step.in_parts(parts))
+                Laid { model: &piece.model, step: step.in_parts(parts), is_worn: piece.open.is_some() }
             })
             .collect();
         let alike = match &self.phase {
@@ -547,6 +545,15 @@ impl Simulation {
         match &self.phase {
             Phase::Dressing(_) => 0.0,
             Phase::Together { outfit, .. } => outfit.body_time(),
+        }
+    }
+
+    /// Where the body [jumped](toile_scene::Lead::jump) and took its garments along, since the run began or was restored: by the rigid transform
+    /// of its leading joint, positions, velocities and contacts. It does so where one body moves and has joints; a sheet only lies on it.
+    pub fn teleports(&self) -> &[Teleport] {
+        match &self.phase {
+            Phase::Together { outfit, stage: Stage::Running, .. } => outfit.teleports(),
+            _ => &[],
         }
     }
 

@@ -1,8 +1,10 @@
-//! The two commands of the README: they set up what a fresh machine lacks, then do their work.
+//! The commands of the README: they set up what a fresh machine lacks, then do their work.
 //!
 //! `cargo xtask dress …` is `toile dress …`; `cargo xtask test` checks the format, lints, builds the documentation, runs every test,
 //! runs parity on a second driver and compiles the kernels with a second compiler. CI runs the same.
+//! `cargo xtask films` makes the films of the documentation, those that are named or all.
 
+mod films;
 mod install;
 mod second_driver;
 mod tint;
@@ -21,7 +23,9 @@ fn main() -> ExitCode {
     let done = match arguments.split_first() {
         Some((task, rest)) if task == "dress" => dress(rest),
         Some((task, [])) if task == "test" => test(),
-        _ => Err("usage: cargo xtask dress [OPTIONS of toile dress] | cargo xtask test".to_owned()),
+        Some((task, names)) if task == "films" => films(names),
+        _ => Err("usage: cargo xtask dress [OPTIONS of toile dress] | cargo xtask test | cargo xtask films [NAMES]"
+            .to_owned()),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
@@ -48,6 +52,12 @@ fn dress(options: &[String]) -> Result<(), String> {
     let mut command = Command::new(toile);
     command.arg("dress").args(options);
     run(command)
+}
+
+/// Makes the films of the documentation.
+fn films(names: &[String]) -> Result<(), String> {
+    cargo(&["build", "--release", "--package", "toile-cli"])?;
+    films::make(&built("release")?, names)
 }
 
 /// Everything that must hold before a change lands. Lints and documentation share one build of the dependencies, the tests

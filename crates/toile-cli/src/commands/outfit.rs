@@ -46,6 +46,12 @@ pub fn read_moving_body(outfit: &Outfit) -> Result<(MovingMesh, Vec<String>)> {
     Ok((file.body, file.warnings))
 }
 
+/// The built-in body with one of its clips.
+pub fn walking_woman(clip: &str) -> Result<MovingMesh> {
+    let options = BodyOptions { clip: Some(clip.to_owned()), ..BodyOptions::default() };
+    Ok(files::parse_moving_body(BODY, BODY_NAME, &options)?.body)
+}
+
 /// Reads the garments of the outfit, inner ones first.
 pub fn read_garments(outfit: &Outfit) -> Result<Vec<Garment>> {
     if outfit.garment.is_empty() {

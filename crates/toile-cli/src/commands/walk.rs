@@ -1,14 +1,16 @@
 //! `toile walk`.
 
-use crate::args::{Outfit, Walk};
+use crate::args::{MotionName, Outfit, ViewName, Walk};
 use crate::bodies;
 use crate::commands::outfit;
 use crate::fit;
 use crate::outcome::Outcome;
+use crate::picture::View;
 use crate::walk;
 use anyhow::{Result, bail};
 use toile::model::FitOptions;
-use toile::scene::{Body, Cloth, Scene, Settings, Wind};
+use toile::scene::{Body, Cloth, MovingMesh, Scene, Settings, Wind};
+use toile_lab::motion::Made;
 
 /// Walks the outfit that the options name.
 pub fn run(arguments: &Walk) -> Result<Outcome> {
@@ -16,7 +18,10 @@ pub fn run(arguments: &Walk) -> Result<Outcome> {
     if outfit.time != 0.0 {
         bail!("--time {}: a walk begins with its clip; leave it out", outfit.time);
     }
-    let (body, warnings) = outfit::read_moving_body(outfit)?;
+    let (body, warnings) = match arguments.motion {
+        Some(motion) => (made(motion)?, Vec::new()),
+        None => outfit::read_moving_body(outfit)?,
+    };
     if !arguments.running.quiet {
         for warning in &warnings {
             eprintln!("warning: {warning}");
@@ -57,7 +62,30 @@ pub fn run(arguments: &Walk) -> Result<Outcome> {
             frame_count,
             precompute_maps: arguments.precompute_maps,
             resume: arguments.resume,
+            height: arguments.height,
+            views: arguments.view.iter().map(|view| view_of(*view)).collect(),
         },
         &arguments.running,
     )
+}
+
+/// The built-in body with a motion that is made for it.
+fn made(motion: MotionName) -> Result<MovingMesh> {
+    let motion = match motion {
+        MotionName::Corner => Made::Corner,
+        MotionName::Turning => Made::Turning,
+        MotionName::ArmsFolded => Made::ArmsFolded,
+        MotionName::Sitting => Made::Sitting,
+        MotionName::Pirouette => Made::Pirouette,
+    };
+    Ok(motion.of(&outfit::walking_woman("walk_loop")?))
+}
+
+fn view_of(view: ViewName) -> View {
+    match view {
+        ViewName::Front => View::Front,
+        ViewName::Back => View::Back,
+        ViewName::Side => View::Side,
+        ViewName::ThreeQuarter => View::ThreeQuarter,
+    }
 }

@@ -1,11 +1,10 @@
 //! How a cloth lies on what it wears under it: exact distances in f64, not those of the maps.
 
-use super::largest::max_and_p99;
 use crate::worn::Worn;
-use glam::{DVec3, Vec3};
-use std::collections::BTreeSet;
-use toile::model::{Model, NO_CORNER, Solid, crossed_particles};
+use glam::DVec3;
+use toile::model::{Solid, crossed_particles};
 use toile::scene::{Body, Mesh, Shape};
+use toile_lab::{max_and_p99, middles};
 use toile_reference::ExactDistance;
 
 /// Everything that a cloth can touch. Built once per run; each finished garment is added for the next one.
@@ -58,21 +57,6 @@ impl Exact {
             Self::Shape(shape) => shape.depth(point, time),
         }
     }
-}
-
-/// Middles of the edges of a cloth's faces, and of the faces themselves [m]. Between its particles cloth goes straight on, where a body bulges.
-pub fn middles(model: &Model, positions: &[Vec3]) -> [Vec<DVec3>; 2] {
-    let place = |particle: u32| positions[particle as usize].as_dvec3();
-    let mut edges: BTreeSet<[u32; 2]> = BTreeSet::new();
-    let mut faces = Vec::with_capacity(model.quads.len());
-    for quad in &model.quads {
-        let corners = if quad[3] == NO_CORNER { &quad[..3] } else { quad };
-        for (&a, &b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
-            edges.insert([a.min(b), a.max(b)]);
-        }
-        faces.push(corners.iter().map(|corner| place(*corner)).sum::<DVec3>() / corners.len() as f64);
-    }
-    [edges.into_iter().map(|[a, b]| place(a).midpoint(place(b))).collect(), faces]
 }
 
 impl Surfaces {
@@ -128,7 +112,7 @@ impl Surfaces {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::dvec3;
+    use glam::{Vec3, dvec3};
 
     #[test]
     fn what_lies_on_an_inner_garment_is_not_far() {

@@ -1,9 +1,9 @@
 //! The numbers of one cloth, and how those of several become one.
 
 use super::contact::Surfaces;
-use super::largest::max_and_p99;
 use crate::worn::Worn;
 use serde::Serialize;
+use toile_lab::max_and_p99;
 
 /// The numbers of one cloth, or of several together.
 #[derive(Clone, Debug, Default, Serialize)]

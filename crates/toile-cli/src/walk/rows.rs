@@ -4,11 +4,13 @@ use super::regions::Regions;
 use super::walker::Walker;
 use crate::fit;
 use crate::look::State;
-use crate::metrics::{Told, is_far, max_and_p99, middles, reach};
+use crate::metrics::{Told, is_far, reach};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use toile::Teleport;
 use toile::model::{Fit, Model, Solid, Status, Verdict, crossed_particles};
 use toile::scene::Mesh;
+use toile_lab::{max_and_p99, middles};
 use toile_reference::ExactDistance;
 
 /// What is measured of a walk. The names are stable.
@@ -38,6 +40,8 @@ pub struct WalkMetrics {
     crossed_count: u32,
     false_contact_fraction_mean: f64,
     false_contacts_by_region: BTreeMap<String, u32>,
+    /// Where the body jumped and took its garments along.
+    teleports: Vec<Teleport>,
     non_finite_count: u32,
     maps_ms_median: f64,
     simulation_ms_median: f64,
@@ -83,6 +87,8 @@ pub struct FrameRow {
     pub false_contact_fraction: f64,
     /// Those particles by the region of the body that is nearest to them.
     pub false_contacts_by_region: BTreeMap<String, u32>,
+    /// Jumps of the body in which it took its garments along.
+    pub teleports: Vec<Teleport>,
     /// Number of particles.
     pub particle_count: u32,
     /// Largest speed [m/s].
@@ -223,6 +229,7 @@ impl WalkMetrics {
             crossed_count: frames.iter().map(|row| row.crossed_count).max().unwrap_or(0),
             false_contact_fraction_mean: fractions / frames.len().max(1) as f64,
             false_contacts_by_region: regions,
+            teleports: frames.iter().flat_map(|row| row.teleports.iter().copied()).collect(),
             non_finite_count: frames.iter().map(|row| row.non_finite_count).sum(),
             maps_ms_median: median(|row| row.maps_ms),
             simulation_ms_median: median(|row| row.simulation_ms),
@@ -232,11 +239,22 @@ impl WalkMetrics {
         }
     }
 
+    /// One line for each jump of the body, for the terminal.
+    pub fn jumps(&self) -> impl Iterator<Item = String> {
+        self.teleports.iter().map(|jump| {
+            let degrees = jump.angle.to_degrees();
+            format!(
+                "the body jumps at {:.2} s, by {:.2} m and {degrees:.0}°: its garments are carried along",
+                jump.time, jump.distance
+            )
+        })
+    }
+
     /// The walk on one line, for the terminal.
     pub fn line(&self) -> String {
         format!(
             "{}: {} particles · {} frames of {} steps · elongation {:.1} % (99 of 100: {:.1} %) · penetration {:.1} mm (99 of \
-             100: {:.1} mm) · false contacts {:.2} % · maps {:.0} ms, simulation {:.0} ms (bodies {:.0} ms), output {:.0} ms per frame",
+             100: {:.1} mm, edges {:.1} mm, faces {:.1} mm) · crossed {} · false contacts {:.2} % · maps {:.0} ms, simulation {:.0} ms (bodies {:.0} ms), output {:.0} ms per frame",
             self.garments.join(", "),
             self.particle_count,
             self.frame_count,
@@ -245,6 +263,9 @@ impl WalkMetrics {
             1e2 * self.elongation_p99_worst,
             self.penetration_max_mm,
             self.penetration_p99_worst_mm,
+            self.edge_penetration_max_mm,
+            self.face_penetration_max_mm,
+            self.crossed_count,
             1e2 * self.false_contact_fraction_mean,
             self.maps_ms_median,
             self.simulation_ms_median,

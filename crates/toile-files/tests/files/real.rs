@@ -33,6 +33,7 @@ fn patterns(folder: &Path) -> String {
 #[test]
 fn the_shipped_patterns_parse() {
     insta::assert_snapshot!(patterns(&fixture("garments")), @r#"
+    circle_skirt: 2 panels, 12 edges, 8 curved, 4 labelled, 2 seams
     dress: 8 panels, 64 edges, 20 curved, 16 labelled, 26 seams
     shirt_sleeveless: 4 panels, 28 edges, 20 curved, 8 labelled, 8 seams
     shirt_sleeves: 8 panels, 44 edges, 24 curved, 8 labelled, 16 seams

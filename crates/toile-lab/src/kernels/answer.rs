@@ -142,6 +142,7 @@ pub fn answer(kernel: Kernel, input: &mut Input) {
             input.status.seam_gap_max = frame::seam_status(&particles.positions, &before.model.seam_pairs).to_bits();
         }
         Kernel::MergeParticles => frame::merge_particles(&before.open, &before.members, particles),
+        Kernel::CarryParticles => frame::carry_particles(particles, &mut input.contacts, before.carry),
         Kernel::StateCopy => input.copies = frame::state_copy(particles),
     }
 }

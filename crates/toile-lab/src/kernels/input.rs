@@ -3,7 +3,7 @@
 use super::Inputs;
 use crate::DrawnMaps;
 use encase::{ShaderType, StorageBuffer, internal::WriteInto};
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 use std::ops::Range;
 use toile::gpu::BodyMaps;
 use toile::gpu::contents::{Encode, constant, encoded, floats, uniform, with_w, words};
@@ -76,6 +76,8 @@ pub struct Input {
     pub body: Posed,
     /// How often the body takes a pose [1/s].
     pub rate: f32,
+    /// First three rows of the transform of a jump.
+    pub carry: [Vec4; 3],
 }
 
 /// What the kernels of a body write, shape [vertex_count] each.
@@ -158,6 +160,10 @@ impl Inputs for Input {
             "shapes" => encoded(&self.shapes),
             "lag" => uniform(&structs::Lag { start: self.lag.start, end: self.lag.end }),
             "vertices" => uniform(&structs::Vertices { count: self.skin.positions.len() as u32, rate: self.rate }),
+            "carry" => {
+                let [row_x, row_y, row_z] = self.carry;
+                uniform(&structs::Carry { row_x, row_y, row_z })
+            }
             "bind_positions" => padded(&self.skin.positions, 1.0),
             "bind_normals" => padded(&self.skin.normals, 0.0),
             "morph_offsets" => words(&self.morphs().offsets),

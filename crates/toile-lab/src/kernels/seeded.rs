@@ -2,7 +2,7 @@
 
 use super::input::{Input, Posed};
 use crate::{DrawnMaps, Gpu, Random};
-use glam::{DVec3, Vec3, Vec4, dvec3, vec3};
+use glam::{DVec3, Mat4, Quat, Vec3, Vec4, dvec3, vec3};
 use toile::gpu::{GpuError, MapSpace, Surface};
 use toile::model::{
     Attachment, Csr, Hold, Limit, Link, MapBox, Model, NO_CORNER, STRAND_PARTICLES_MAX, SeamPair, ShapeKind, ShapeStep,
@@ -110,6 +110,8 @@ impl Seeds {
             sides: sides.clone(),
             layers: layers.clone(),
             rate: if variant == Variant::Weightless { 0.0 } else { 120.0 },
+            // Of numbers of its own, so that those of all other kernels stay.
+            carry: carry(&mut Random::new(!self.seed ^ u64::from(items))),
             open,
             members,
             copies: particles.clone(),
@@ -175,6 +177,13 @@ impl Seeds {
         carry_by_the_wind(&mut input);
         input
     }
+}
+
+/// Rows of a rigid transform.
+fn carry(random: &mut Random) -> [Vec4; 3] {
+    let turn = Quat::from_axis_angle(random.direction(), random.between(0.5, 3.0));
+    let matrix = Mat4::from_rotation_translation(turn, random.vector(2.0));
+    [0, 1, 2].map(|row| matrix.row(row))
 }
 
 /// None to four quads of each particle, whatever their corners.

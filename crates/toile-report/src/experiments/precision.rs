@@ -2,11 +2,13 @@
 
 mod elongation;
 mod maps;
+mod poses;
 mod position;
 mod refinement;
 
 pub use elongation::{Limited, Limiting, limited};
 pub use maps::{Coding, MapError, Offset, Probing, Shell, map_error, velocity_error};
+pub use poses::{Surroundings, Told, poses, told};
 pub use position::{Scene, rest_error};
 pub use refinement::shape_errors;
 
@@ -39,11 +41,16 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
     ));
     section.blocks.extend(refinement::blocks(lab, [0.65, 0.85])?);
     section.blocks.push(text(
-        "Maps: what the cloth sees of the body, against its exact mesh. A point in contact is led out along the normal by the distance that \
+        "The papers' two maps: what the cloth sees of the body, against its exact mesh. A point in contact is led out along the normal by the distance that \
          the maps tell; what is left of its depth is one error, a point that moves although it should not the other. Two cameras do not see \
          everything: armpits, the inside of the legs and folds of the body are told apart. Along normals the vertices of the mesh are moved, \
          which makes the exact offset only where the mesh is smooth; so the depth that is left does not vanish with the texel.",
     ));
-    section.blocks.extend(maps::blocks(lab, [0.85, 1.0])?);
+    section.blocks.extend(maps::blocks(lab, [0.85, 0.93])?);
+    section.blocks.push(text(
+        "Layers: two cameras along z tell of a body neither the limbs that others hide nor the sides that turn away. Layers along three axes, the default, do; \
+         texels as fine as one likes repair nothing in two maps.",
+    ));
+    section.blocks.extend(poses::blocks(lab, [0.93, 1.0])?);
     Ok(section)
 }

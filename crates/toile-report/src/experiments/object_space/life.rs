@@ -2,14 +2,14 @@
 
 use std::time::{Duration, Instant};
 use toile::model::{Model, StepSettings};
-use toile_reference::maps::SideMaps;
-use toile_reference::{Contact, Midpoints, ObjectSpace, Particles, Probe, frame, limits, step};
+use toile_reference::maps::BodyMaps;
+use toile_reference::{Contact, Lag, Midpoints, ObjectSpace, Particles, Probe, frame, limits, step};
 
 /// Where collision is tested.
 #[derive(Clone, Debug)]
 pub enum Collision {
     /// In the maps of the body: particles and quad midpoints. D §5.
-    Image(SideMaps),
+    Image(BodyMaps),
     /// Against the faces of the body: particles alone, as in D §7.
     Object(ObjectSpace),
 }
@@ -75,8 +75,10 @@ impl<'a> Life<'a> {
         let (own, quads, midpoints) = match self.collision {
             Collision::Image(maps) => {
                 let midpoints = step::quad_midpoints(&particles.positions, &particles.velocities, &model.quads);
-                let quads = step::sample_sides(&midpoints.positions, &midpoints.velocities, maps, settings);
-                let own = step::sample_sides(&particles.positions, &particles.velocities, maps, settings);
+                let quads =
+                    step::sample_body_maps(&midpoints.positions, &midpoints.velocities, maps, Lag::default(), settings);
+                let own =
+                    step::sample_body_maps(&particles.positions, &particles.velocities, maps, Lag::default(), settings);
                 (own, quads, midpoints)
             }
             Collision::Object(body) => {
