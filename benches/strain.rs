@@ -5,7 +5,8 @@
 //! its kinetic energy grows at most. With a polish also the further sweeps and the missed steps of the run, per step; its passes are
 //! those that it may have, its cost is that of the steps after the run.
 //!
-//! `cargo bench --bench strain`, or with `-- --n 64,128 --rule hierarchical --scene hang --threshold 0.01 --frames 60 --polish 0.015,8`.
+//! `cargo bench --bench strain`, or with `-- --n 64,128 --rule hierarchical --scene hang --threshold 0.01 --frames 60 --polish 0.015,8`; with `--coarse yes` hierarchical limits lie between
+//! coarse particles.
 
 mod support;
 
@@ -63,6 +64,7 @@ struct Options {
     threshold: f64,
     frames: Option<u32>,
     polish: Option<Polish>,
+    coarse: bool,
 }
 
 impl Options {
@@ -76,6 +78,7 @@ impl Options {
             threshold: 0.05,
             frames: None,
             polish: None,
+            coarse: false,
         };
         let mut arguments = std::env::args().skip(1).filter(|argument| argument != "--bench");
         while let Some(option) = arguments.next() {
@@ -87,13 +90,16 @@ impl Options {
                 "--n" => options.sizes = list().iter().map(|n| n.parse().expect("sizes are numbers")).collect(),
                 "--threshold" => options.threshold = value.parse().expect("the threshold is a number"),
                 "--frames" => options.frames = Some(value.parse().expect("the frames are a number")),
+                "--coarse" => options.coarse = value == "yes",
                 "--polish" => {
                     let (target, sweeps) = value.split_once(',').expect("a polish is TARGET,SWEEPS");
                     let target = target.parse().expect("the target is a number");
                     let sweeps = sweeps.parse().expect("the sweeps are a number");
                     options.polish = Some(Polish { target, sweeps });
                 }
-                _ => panic!("there is no option {option}: --scene, --rule, --n, --threshold, --frames, --polish"),
+                _ => panic!(
+                    "there is no option {option}: --scene, --rule, --n, --threshold, --frames, --polish, --coarse"
+                ),
             }
         }
         options
@@ -122,7 +128,8 @@ impl Row {
         let mut scene = scene(name, &[("n", &n.to_string())]);
         // A polish works under the predictive rules alone.
         let polish = options.polish.filter(|_| rule != Rule::None);
-        scene.settings.velocity_modification = VelocityModification { polish, ..VelocityModification::new(rule) };
+        scene.settings.velocity_modification =
+            VelocityModification { polish, coarse: options.coarse, ..VelocityModification::new(rule) };
         scene.settings.fabric.threshold = Threshold::even(options.threshold);
         let model = sheet_model(&scene);
         let settings = StepSettings::new(&scene.settings, &model);

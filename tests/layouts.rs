@@ -15,6 +15,8 @@ macro_rules! for_every_struct {
             LinkSpring,
             Limit,
             Strand,
+            CoarseParticle,
+            Leader,
             Attachment,
             SeamPair,
             Hold,

@@ -41,6 +41,34 @@ fn plans_of_the_scenes() {
     insta::assert_snapshot!(text);
 }
 
+/// Rows by level take turns, the coarsest level first.
+#[test]
+fn plan_of_coarse_particles() {
+    let mut hang = scene("hang", &[("n", "17")]);
+    hang.settings.velocity_modification.coarse = true;
+    let model = sheet_model(&hang);
+    let plan = plan_of_scene(&hang);
+    let first_sweep: Vec<(Kernel, u32)> = plan
+        .step
+        .iter()
+        .skip_while(|pass| pass.kernel != Kernel::LeadCoarse)
+        .take_while(|pass| pass.kernel != Kernel::LeadParticles)
+        .map(|pass| (pass.kernel, pass.items.start))
+        .collect();
+    let by_hand: Vec<(Kernel, u32)> = model
+        .levels
+        .iter()
+        .rev()
+        .flat_map(|level| {
+            let limits = [&level.colours, &level.colours].into_iter().flatten();
+            let limits = limits.map(|colour| (Kernel::LimitCoarse, colour.start));
+            std::iter::once((Kernel::LeadCoarse, level.particles.start)).chain(limits)
+        })
+        .collect();
+    assert_eq!(first_sweep, by_hand);
+    insta::assert_snapshot!(plan);
+}
+
 #[test]
 fn plans_of_the_garments() {
     let body = [Body::Mesh(Default::default())];

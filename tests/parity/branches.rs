@@ -152,6 +152,31 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
             see("has many levels", strands.iter().filter(|s| s.level_count > 3).count());
             see("is longer than a workgroup", strands.iter().filter(|s| s.particles.len() > 64).count());
         }
+        Kernel::LeadCoarse => {
+            let leads = |i: u32| before.model.leaders.row(before.particle_count() + i as usize).len();
+            see("is led by none", before.span.clone().filter(|i| leads(*i) == 0).count());
+            see("is led by several", before.span.clone().filter(|i| leads(*i) > 1).count());
+        }
+        Kernel::LeadParticles => {
+            let leads = |i: usize| before.model.leaders.row(i).len();
+            see("is led by none", particles().filter(|i| leads(*i) == 0 && !changed(*i)).count());
+            see("is led by several", particles().filter(|i| leads(*i) > 1 && changed(*i)).count());
+        }
+        Kernel::LimitCoarse => {
+            let weight = |i: u32| before.model.coarse_particles[i as usize].inverse_mass;
+            let shifted = |i: u32| before.coarse.shifts[i as usize] != after.coarse.shifts[i as usize];
+            let pairs = || before.colour_coarse_limits().iter().map(|limit| limit.ends);
+            let lost = |i: u32| before.coarse.places[i as usize].is_nan();
+            see("shifts both ends", pairs().filter(|[a, b]| shifted(*a) && shifted(*b)).count());
+            see(
+                "shifts neither",
+                pairs().filter(|ends| ends.iter().all(|i| !shifted(*i) && weight(*i) > 0.0 && !lost(*i))).count(),
+            );
+            see("has a pinned end", pairs().filter(|[a, b]| shifted(*a) && weight(*b) == 0.0).count());
+            see("has both ends pinned", pairs().filter(|ends| ends.iter().all(|i| weight(*i) == 0.0)).count());
+            see("has an end that is no number", pairs().filter(|ends| ends.iter().any(|i| lost(*i))).count());
+            assert_eq!(pairs().flatten().filter(|i| weight(*i) == 0.0 && shifted(*i)).count(), 0, "pins stay");
+        }
         Kernel::LimitAttachments => {
             let attached = |i: &usize| !before.model.attachments.row(*i).is_empty();
             let pinned = |i: &usize| weights[*i] == 0.0;

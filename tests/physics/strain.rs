@@ -20,8 +20,12 @@ struct Stretch {
 }
 
 fn stretch(name: &str, n: u32, rule: Rule, threshold: f64) -> Stretch {
+    stretch_under(name, n, VelocityModification::new(rule), threshold)
+}
+
+fn stretch_under(name: &str, n: u32, velocity_modification: VelocityModification, threshold: f64) -> Stretch {
     let mut scene = scene(name, &[("n", &n.to_string())]);
-    scene.settings.velocity_modification = VelocityModification::new(rule);
+    scene.settings.velocity_modification = velocity_modification;
     scene.settings.fabric.threshold = Threshold::even(threshold);
     let model = sheet_model(&scene);
     let settings = StepSettings::new(&scene.settings, &model);
@@ -45,6 +49,15 @@ fn every_scene_holds_its_threshold() {
             let held = stretch(name, 32, Rule::Hierarchical, threshold);
             assert!(held.over_run <= bar && held.over_long < 0.01, "{name} at {threshold}: {held:?}");
         }
+    }
+}
+
+#[test]
+fn coarse_particles_hold_it_too() {
+    let coarse = VelocityModification { coarse: true, ..VelocityModification::new(Rule::Hierarchical) };
+    for name in SCENES {
+        let held = stretch_under(name, 32, coarse, 0.05);
+        assert!(held.over_run <= 0.07 && held.over_long < 0.01, "{name}: {held:?}");
     }
 }
 

@@ -111,7 +111,7 @@ fn settings(toml: &SceneToml, folder: &Path) -> Result<Settings, Problem> {
         },
     };
     Ok(Settings {
-        velocity_modification: VelocityModification { rule, sweeps, polish },
+        velocity_modification: VelocityModification { rule, sweeps, coarse: false, polish },
         friction,
         reflection: within("reflection", toml.reflection.unwrap_or(default.reflection), PARTS, "")?,
         gravity: vector("gravity", toml.gravity.unwrap_or(default.gravity.to_array()))?,

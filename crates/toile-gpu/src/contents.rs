@@ -4,7 +4,10 @@ use crate::step_params;
 use encase::{ShaderType, StorageBuffer, UniformBuffer, internal::WriteInto};
 use glam::{Vec3, Vec4};
 use toile_kernels::structs;
-use toile_model::{Attachment, Hold, Limit, Link, MapBox, Model, SeamPair, ShapeStep, SideBox, StepSettings, Strand};
+use toile_model::{
+    Attachment, CoarseParticle, Hold, Leader, Limit, Link, MapBox, Model, SeamPair, ShapeStep, SideBox, StepSettings,
+    Strand,
+};
 use toile_scene::{Displacement, Influence, Polish};
 
 /// Bytes of the buffer of a name that a model and the settings of its step decide; `None` for the others. `after_maps` when shapes are
@@ -25,6 +28,10 @@ pub fn constant(name: &str, model: &Model, settings: &StepSettings, after_maps: 
         "strands" => encoded(&model.strands),
         "strand_particles" => words(&model.strand_particles),
         "strand_lengths" => floats(&model.strand_lengths),
+        "coarse_particles" => encoded(&model.coarse_particles),
+        "coarse_limits" => encoded(&model.coarse_limits),
+        "leader_offsets" => words(&model.leaders.offsets),
+        "leaders" => encoded(&model.leaders.values),
         "attachment_offsets" => words(&model.attachments.offsets),
         "attachments" => encoded(&model.attachments.values),
         "seam_pairs" => encoded(&model.seam_pairs),
@@ -112,6 +119,8 @@ encode! {
         lengths: strand.lengths,
         level_count: strand.level_count,
     }
+    |coarse: CoarseParticle| CoarseParticle { site: coarse.site, inverse_mass: coarse.inverse_mass }
+    |leader: Leader| Leader { coarse: leader.coarse, part: leader.part }
     |attachment: Attachment| Attachment { pin: attachment.pin, max_length: attachment.max_length }
     |pair: SeamPair| SeamPair { first: pair.ends[0], second: pair.ends[1], closing_speed: pair.closing_speed }
     |hold: Hold| Hold {

@@ -83,7 +83,8 @@ impl<'a> Needs<'a> {
             Need::RuleDirectional => rule == Rule::Directional,
             Need::RulePredictive => hierarchical || rule == Rule::Predictive,
             Need::RulePosition => rule == Rule::Position,
-            Need::Strands => hierarchical,
+            Need::Strands => hierarchical && !model.strands.is_empty(),
+            Need::Levels => hierarchical && !model.levels.is_empty(),
             Need::Attachments => hierarchical && !model.attachments.values.is_empty(),
             // Seams that are still open would be held apart by single springs that have the last word.
             Need::Guard => hierarchical && !self.hold(Need::Seams),

@@ -5,7 +5,7 @@ use std::fmt;
 use std::ops::Range;
 use toile_kernels::structs::Span;
 use toile_kernels::{Domain, Kernel, Row, Stage, TABLE, WORKGROUP_SIZE};
-use toile_model::{Model, StepSettings};
+use toile_model::{Level, Model, StepSettings};
 
 /// Workgroups along one dimension that every device can dispatch.
 const WORKGROUPS_MAX: u32 = 65_535;
@@ -81,8 +81,14 @@ impl Plan {
         let mut frame = Vec::new();
         let mut sweep: Vec<Pass> = Vec::new();
         for group in rows.chunk_by(|a, b| a.stage == b.stage) {
-            let group_passes: Vec<Pass> =
-                group.iter().flat_map(|row| passes(row, model, settings, &mut spans)).collect();
+            let mut group_passes: Vec<Pass> = Vec::new();
+            for rows in group.chunk_by(|a, b| is_by_level(a) == is_by_level(b)) {
+                // Rows by level take turns, the coarsest level first.
+                let levels = if is_by_level(rows[0]) { model.levels.as_slice() } else { &[Level::default()] };
+                for level in levels.iter().rev() {
+                    group_passes.extend(rows.iter().flat_map(|row| passes(row, model, settings, level, &mut spans)));
+                }
+            }
             match group[0].stage {
                 Stage::Step => step.extend(group_passes),
                 Stage::Sweep => {
@@ -151,7 +157,11 @@ impl Pass {
     }
 }
 
-fn passes(row: &Row, model: &Model, settings: &StepSettings, spans: &mut Vec<Span>) -> Vec<Pass> {
+fn is_by_level(row: &Row) -> bool {
+    matches!(row.domain, Domain::LevelParticle | Domain::LevelLimitColour)
+}
+
+fn passes(row: &Row, model: &Model, settings: &StepSettings, level: &Level, spans: &mut Vec<Span>) -> Vec<Pass> {
     let workgroup_per_item = matches!(row.domain, Domain::Hold | Domain::StrandColour);
     let pass = |items, span| Pass { kernel: row.kernel, items, span, workgroup_per_item, grant: None };
     let all = |count: u32| vec![pass(0..count, None)];
@@ -181,6 +191,8 @@ fn passes(row: &Row, model: &Model, settings: &StepSettings, spans: &mut Vec<Spa
             coloured(&model.limit_colours, settings.guard_passes, &|pass, colour| settings.guard_share(pass, colour))
         }
         Domain::StrandColour => coloured(&model.strand_colours, 1, &whole),
+        Domain::LevelParticle => coloured(std::slice::from_ref(&level.particles), 1, &whole),
+        Domain::LevelLimitColour => coloured(&level.colours, StepSettings::COARSE_PASSES, &whole),
         Domain::SeamPair => all(model.seam_pair_count()),
         Domain::SeamColour => coloured(&model.seam_colours, 1, &whole),
         Domain::Workgroup => all(WORKGROUP_SIZE),

@@ -24,6 +24,8 @@ pub enum Per {
     Point,
     /// A limit.
     Limit,
+    /// A coarse particle.
+    CoarseParticle,
     /// The particles of a workgroup.
     Workgroup,
     /// A pass that a polish must grant.
@@ -96,6 +98,12 @@ buffers! {
     "strands" Listed Constant;
     "strand_particles" Listed Constant;
     "strand_lengths" Listed Constant;
+    "coarse_particles" Listed Constant;
+    "coarse_limits" Listed Constant;
+    "leader_offsets" Listed Constant;
+    "leaders" Listed Constant;
+    "coarse_places" CoarseParticle Scratch;
+    "coarse_shifts" CoarseParticle Scratch;
     "attachment_offsets" Listed Constant;
     "attachments" Listed Constant;
     "seam_pairs" Listed Constant;

@@ -15,12 +15,14 @@ macro_rules! shared {
 
 const SHARED: &[(&str, &str)] = &shared![
     "area",
+    "coarse",
     "crossings",
     "elongation",
     "item",
     "layer_box",
     "layer_raster",
     "layer_planes",
+    "leaders",
     "side_planes",
     "over_long",
     "packed",

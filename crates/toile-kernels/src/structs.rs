@@ -176,6 +176,22 @@ shared_structs! {
         level_count: u32,
     }
 
+    /// A particle that stands for those around it.
+    CoarseParticle {
+        /// The particle of the cloth where it is.
+        site: u32,
+        /// Inverse of the mass that it carries [1/kg].
+        inverse_mass: f32,
+    }
+
+    /// A coarse particle that leads another.
+    Leader {
+        /// The coarse particle.
+        coarse: u32,
+        /// Part that it has in what the other is moved by [1].
+        part: f32,
+    }
+
     /// A maximum distance of a particle from a pin.
     Attachment {
         /// The pinned particle.

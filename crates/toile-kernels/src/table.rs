@@ -46,6 +46,10 @@ pub enum Domain {
     LimitColourShare,
     /// A strand, one workgroup each; one dispatch per colour.
     StrandColour,
+    /// A coarse particle; one dispatch per level.
+    LevelParticle,
+    /// A limit between coarse particles; one dispatch per colour of a level.
+    LevelLimitColour,
     /// A seam pair.
     SeamPair,
     /// A seam pair; one dispatch per colour.
@@ -103,6 +107,8 @@ pub enum Need {
     RulePosition,
     /// Strands, under the rule Hierarchical.
     Strands,
+    /// Coarse particles, under the rule Hierarchical.
+    Levels,
     /// Limits of a cloth without open seams, under the rule Hierarchical.
     Guard,
     /// The same, and any body.
@@ -203,6 +209,12 @@ kernels! {
     LimitAttachments "step" "limit_attachments" Sweep Particle Attachments;
     /// The default rule, along lines of cloth.
     LimitStrands "step" "limit_strands" Sweep StrandColour Strands ["LANES" = 8.0];
+    /// Coarse particles begin with what those of the coarser level have found. Rows by level take turns, the coarsest level first.
+    LeadCoarse "step" "lead_coarse" Sweep LevelParticle Levels;
+    /// The default rule between coarse particles.
+    LimitCoarse "step" "limit_coarse" Sweep LevelLimitColour Levels;
+    /// The cloth follows its coarse particles.
+    LeadParticles "step" "lead_particles" Sweep Particle Levels;
     /// The predictive rule on single springs; under the default rule after the strands.
     LimitPredictive "step" "limit_predictive" Sweep LimitColour RulePredictive;
     /// Points of the quads that are tested. D §6.

@@ -2,8 +2,10 @@
 
 mod assemble;
 mod bending;
+mod coarse;
 mod colouring;
 pub(crate) mod digest;
+mod flat_spans;
 mod lines;
 pub(crate) mod long_limits;
 pub(crate) mod model;

@@ -13,7 +13,10 @@ mod union_find;
 
 pub use cloth::digest::digest_of;
 pub use cloth::long_limits::{STRAND_PARTICLES_MAX, path_chord};
-pub use cloth::model::{Attachment, Hold, Limit, Link, Merge, Model, PanelMesh, SeamPair, Spring, SpringKind, Strand};
+pub use cloth::model::{
+    Attachment, CoarseParticle, Hold, Leader, Level, Limit, Link, Merge, Model, PanelMesh, SeamPair, Spring,
+    SpringKind, Strand,
+};
 pub use csr::Csr;
 pub use error::ModelError;
 pub use fit::axis::Axis;

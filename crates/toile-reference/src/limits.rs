@@ -1,6 +1,6 @@
 //! What a step does with all limits of a cloth, colour by colour: [`Reference`](crate::Reference) without forces and bodies.
 
-use crate::{Contact, Particles, Probe, step};
+use crate::{Coarse, Contact, Particles, Probe, step};
 use std::ops::Range;
 use toile_model::{Model, StepSettings};
 use toile_scene::Rule;
@@ -29,6 +29,7 @@ pub fn sweep(
     }
     if settings.rule == Rule::Hierarchical {
         step::limit_attachments(particles, &model.attachments, settings.dt);
+        coarse_levels(particles, model, settings);
         let (line, lengths) = (&model.strand_particles, &model.strand_lengths);
         for colour in &model.strand_colours {
             step::limit_strands(particles, part(&model.strands, colour), line, lengths, settings.dt);
@@ -46,6 +47,21 @@ pub fn sweep(
             }
         }
     }
+}
+
+/// From the coarsest level to the finest: each begins with what it is led by.
+fn coarse_levels(particles: &mut Particles, model: &Model, settings: &StepSettings) {
+    if model.levels.is_empty() {
+        return;
+    }
+    let mut coarse = Coarse::new(model.coarse_particles.len());
+    for level in model.levels.iter().rev() {
+        step::lead_coarse(&mut coarse, &level.particles, particles, model, settings.dt);
+        for colour in (0..StepSettings::COARSE_PASSES).flat_map(|_| &level.colours) {
+            step::limit_coarse(&mut coarse, &model.coarse_particles, part(&model.coarse_limits, colour));
+        }
+    }
+    step::lead_particles(particles, &coarse, &model.leaders, settings.dt);
 }
 
 /// After the sweeps, where no seam is open: no contact leaves a spring stretched far beyond its limit, and no particle goes deeper into a

@@ -28,6 +28,27 @@ impl Particles {
     }
 }
 
+/// The coarse particles of all levels in a sweep. Both arrays have the shape [coarse_count].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Coarse {
+    /// Where they would be after the coming move [m].
+    pub places: Vec<Vec3>,
+    /// How far limits have moved those places [m].
+    pub shifts: Vec<Vec3>,
+}
+
+impl Coarse {
+    /// So many, nowhere yet.
+    pub fn new(count: usize) -> Self {
+        Self { places: vec![Vec3::ZERO; count], shifts: vec![Vec3::ZERO; count] }
+    }
+
+    /// Where one is now [m].
+    pub(crate) fn place(&self, index: usize) -> Vec3 {
+        self.places[index] + self.shifts[index]
+    }
+}
+
 /// Means of the corners of each quad or triangle; both arrays have the shape [quad_count].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Midpoints {

@@ -128,6 +128,9 @@ pub struct VelocityModification {
     /// and the size of the cloth ask: [`Rule::sweeps`], and once more where the longest limits span 64 cells, as in a sheet of
     /// 512 × 512 particles.
     pub sweeps: Option<u32>,
+    /// Under [`Rule::Hierarchical`]: whether limits over many cells lie between coarse particles, or along lines of cloth. Coarse particles do less
+    /// for the same strain; they are not the default as long as garments are not measured with them.
+    pub coarse: bool,
     /// Further sweeps in steps that need them; `None` is none. It needs [`Rule::Predictive`] or [`Rule::Hierarchical`].
     pub polish: Option<Polish>,
 }
@@ -138,7 +141,7 @@ impl VelocityModification {
 
     /// A rule with the sweeps that it is made for.
     pub fn new(rule: Rule) -> Self {
-        Self { rule, sweeps: None, polish: None }
+        Self { rule, sweeps: None, coarse: false, polish: None }
     }
 }
 

@@ -38,6 +38,13 @@ pub fn answer(kernel: Kernel, input: &mut Input) {
             let (line, lengths) = (&before.model.strand_particles, &before.model.strand_lengths);
             step::limit_strands(particles, before.colour_strands(), line, lengths, dt);
         }
+        Kernel::LeadCoarse => {
+            step::lead_coarse(&mut input.coarse, &before.span, particles, &before.model, dt);
+        }
+        Kernel::LimitCoarse => {
+            step::limit_coarse(&mut input.coarse, &before.model.coarse_particles, before.colour_coarse_limits());
+        }
+        Kernel::LeadParticles => step::lead_particles(particles, &before.coarse, &before.model.leaders, dt),
         Kernel::LimitAttachments => step::limit_attachments(particles, &before.model.attachments, dt),
         Kernel::WarmStart => {
             step::warm_start(particles, before.colour_limits(), &mut input.limit_impulses[before.colour()]);

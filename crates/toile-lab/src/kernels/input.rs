@@ -11,7 +11,7 @@ use toile::model::{Csr, Limit, Model, SeamPair, ShapeStep, StepSettings, Strand}
 use toile::scene::{Polish, Pose, Skin};
 use toile_kernels::structs;
 use toile_reference::step::PolishState;
-use toile_reference::{Contact, Lag, Midpoints, Particles, Probe};
+use toile_reference::{Coarse, Contact, Lag, Midpoints, Particles, Probe};
 
 /// Everything a kernel may read or write.
 #[derive(Clone, Debug)]
@@ -40,6 +40,8 @@ pub struct Input {
     pub span: Range<u32>,
     /// Part of an excess that the guard removes [1].
     pub share: f32,
+    /// Coarse particles in a sweep.
+    pub coarse: Coarse,
     /// Midpoints of the quads.
     pub midpoints: Midpoints,
     /// Of the particles, then of the quads.
@@ -104,6 +106,11 @@ impl Input {
     /// The limits of the span.
     pub fn colour_limits(&self) -> &[Limit] {
         &self.model.limits[self.colour()]
+    }
+
+    /// The limits between coarse particles of the span.
+    pub fn colour_coarse_limits(&self) -> &[Limit] {
+        &self.model.coarse_limits[self.colour()]
     }
 
     /// The strands of the span.
@@ -184,6 +191,11 @@ impl Inputs for Input {
             "quad_winds" => with_w(&self.quad_winds, &vec![0.0; self.quad_winds.len()]),
             "normals" => with_w(&self.normals, &vec![0.0; self.normals.len()]),
             "limit_impulses" => floats(&self.limit_impulses),
+            "coarse_places" => {
+                let weights = self.model.coarse_particles.iter().map(|coarse| coarse.inverse_mass);
+                with_w(&self.coarse.places, &weights.collect::<Vec<_>>())
+            }
+            "coarse_shifts" => padded(&self.coarse.shifts, 0.0),
             "midpoints" => {
                 let both = self.midpoints.positions.iter().zip(&self.midpoints.velocities);
                 array(both.map(|(position, velocity)| structs::Midpoint { position: *position, velocity: *velocity }))

@@ -5,15 +5,15 @@ use crate::{DrawnMaps, Gpu, Random};
 use glam::{DVec3, Vec3, Vec4, dvec3, vec3};
 use toile::gpu::{GpuError, MapSpace, Surface};
 use toile::model::{
-    Attachment, Csr, Hold, Limit, Link, MapBox, Model, NO_CORNER, STRAND_PARTICLES_MAX, SeamPair, ShapeKind, ShapeStep,
-    StepSettings, Strand,
+    Attachment, CoarseParticle, Csr, Hold, Leader, Limit, Link, MapBox, Model, NO_CORNER, STRAND_PARTICLES_MAX,
+    SeamPair, ShapeKind, ShapeStep, StepSettings, Strand,
 };
 use toile::scene::{
     Displacement, Fabric, Friction, Influence, MapKind, Mesh, Morphs, Polish, Pose, Settings, Skin, Wind,
 };
 use toile_kernels::{Domain, Kernel, TABLE};
 use toile_reference::step::PolishState;
-use toile_reference::{Contact, Lag, Midpoints, Particles, Probe, frame};
+use toile_reference::{Coarse, Contact, Lag, Midpoints, Particles, Probe, frame};
 
 /// What the numbers of a step are: together these lead into every branch that the settings decide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,6 +87,10 @@ impl Seeds {
             let first = strands[counts.others as usize].particles.start as usize;
             strand_particles[first..first + 40].iter().for_each(|i| particles.inverse_masses[*i as usize] = 0.0);
         }
+        let levels = coarse(random, kernel, counts.particles, items);
+        if matches!(domain, Domain::LevelParticle | Domain::LevelLimitColour) {
+            span = BESIDE..BESIDE + items;
+        }
         let quads = quads(random, &counts);
         let midpoints = Midpoints {
             positions: (0..counts.quads).map(|_| random.vector(0.6)).collect(),
@@ -127,12 +131,16 @@ impl Seeds {
                 strands,
                 strand_particles,
                 strand_lengths,
+                coarse_particles: levels.particles,
+                coarse_limits: levels.limits,
+                leaders: levels.leaders,
                 holds,
                 held_particles,
                 quads,
                 ..Model::default()
             },
             span,
+            coarse: levels.state,
             share: if variant == Variant::Weightless { 1.0 } else { 0.5 },
             midpoints,
             probes: (0..counts.particles + counts.quads).map(|_| probe(random)).collect(),
@@ -242,6 +250,7 @@ fn counts(domain: Domain, items: u32) -> Counts {
             Counts { particles: 2 * items + 4, pairs: items, others: 2, ..none }
         }
         Domain::StrandColour => Counts { particles: 8 * items + STRAND_PARTICLES_MAX, others: 2, ..none },
+        Domain::LevelParticle | Domain::LevelLimitColour => none,
         Domain::Workgroup => Counts { partials: items, ..none },
         Domain::Vertex => Counts { particles: 1, ..none },
         Domain::TrianglePart | Domain::Column => panic!("maps are drawn of whole bodies"),
@@ -399,6 +408,59 @@ fn strands(
 }
 
 /// Distances from other particles, a little more or less than they are.
+/// Coarse particles or limits beside those of a level or colour, on both sides.
+const BESIDE: u32 = 2;
+
+struct Levels {
+    particles: Vec<CoarseParticle>,
+    limits: Vec<Limit>,
+    leaders: Csr<Leader>,
+    state: Coarse,
+}
+
+/// Coarse particles, the last eight of which lead all others and the cloth; disjoint limits between them, with others before and after the
+/// span of the colour. Nothing where a kernel reads none.
+fn coarse(random: &mut Random, kernel: Kernel, particles: u32, items: u32) -> Levels {
+    let mut levels =
+        Levels { particles: Vec::new(), limits: Vec::new(), leaders: Csr::default(), state: Coarse::default() };
+    let count = match kernel {
+        Kernel::LeadCoarse => BESIDE + items + 8,
+        Kernel::LimitCoarse => 2 * items + 4,
+        Kernel::LeadParticles => 8,
+        _ => return levels,
+    };
+    for k in 0..count {
+        let inverse_mass = if k % 7 == 3 || k % 11 == 4 { 0.0 } else { random.between(100.0, 5000.0) };
+        levels.particles.push(CoarseParticle { site: random.below(particles), inverse_mass });
+        let place = if random.one_in(60) { Vec3::splat(f32::NAN) } else { random.vector(0.6) };
+        levels.state.places.push(place);
+        levels.state.shifts.push(if random.one_in(3) { Vec3::ZERO } else { random.vector(0.05) });
+    }
+    if kernel == Kernel::LimitCoarse {
+        let order = random.shuffled(count);
+        for k in 0..items + 2 * BESIDE {
+            let inside = (BESIDE..BESIDE + items).contains(&k);
+            // Those of other colours may share particles: nothing may touch them.
+            let first = if inside { 2 * (k - BESIDE) as usize } else { 0 };
+            let ends = [order[first], order[first + 1]];
+            let [a, b] = ends.map(|end| levels.state.places[end as usize] + levels.state.shifts[end as usize]);
+            let distance = (b - a).length();
+            let rest_length = if distance > 0.0 { distance * random.between(0.7, 1.3) } else { 0.1 };
+            // Some are exactly as long as they may be.
+            let max_length = if k % 9 == 4 && distance > 0.0 { distance } else { 1.05 * rest_length };
+            levels.limits.push(Limit { ends, rest_length, max_length });
+        }
+        return levels;
+    }
+    let row = |random: &mut Random| -> Vec<Leader> {
+        let leaders = random.below(5);
+        let part = |random: &mut Random| random.between(0.1, 0.9);
+        (0..leaders).map(|_| Leader { coarse: count - 8 + random.below(8), part: part(random) }).collect()
+    };
+    levels.leaders = Csr::from_rows((0..particles + count).map(|_| row(random)));
+    levels
+}
+
 fn attachments(random: &mut Random, particles: &Particles) -> Csr<Attachment> {
     let count = particles.positions.len() as u32;
     Csr::from_rows((0..count).map(|i| {

@@ -19,6 +19,7 @@ impl Model {
         floats(&mut self.links.values.iter().flat_map(|link| [link.rest_length, link.stiffness]));
         floats(&mut self.limits.iter().flat_map(|limit| [limit.rest_length, limit.max_length]));
         floats(&mut self.strand_lengths.iter().copied());
+        floats(&mut self.coarse_limits.iter().map(|limit| limit.max_length));
         floats(&mut self.attachments.values.iter().map(|attachment| attachment.max_length));
         words.extend(self.links.offsets.iter().chain(self.links.values.iter().map(|link| &link.other)));
         words.extend(self.limits.iter().flat_map(|limit| limit.ends));

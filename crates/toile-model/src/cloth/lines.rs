@@ -283,7 +283,7 @@ impl Cloth<'_> {
     }
 
     /// Whether the straight line between two points of a panel stays inside, when a way of so many metres does.
-    fn is_inside(&self, panel: u32, [a, b]: [DVec2; 2], way: f64, rims: &Csr<[u32; 2]>) -> bool {
+    pub(crate) fn is_inside(&self, panel: u32, [a, b]: [DVec2; 2], way: f64, rims: &Csr<[u32; 2]>) -> bool {
         if way <= a.distance(b) * (1.0 + 1e-9) {
             return true;
         }

@@ -32,6 +32,15 @@ pub struct Model {
     pub strand_particles: Vec<u32>,
     /// Maximum lengths [m] of the limits of all strands, strand by strand, level by level; as [`Limit::max_length`].
     pub strand_lengths: Vec<f32>,
+    /// Coarse particles, level by level, the finest level first. Empty unless the rule is [`Rule::Hierarchical`].
+    pub coarse_particles: Vec<CoarseParticle>,
+    /// The levels of coarse particles, the finest first.
+    pub levels: Vec<Level>,
+    /// Limits between coarse particles, level by level, sorted by colour; their ends are indices into [`Model::coarse_particles`].
+    pub coarse_limits: Vec<Limit>,
+    /// For each particle, and then for each coarse particle, those of the next coarser level that lead it. What these are moved by in a sweep
+    /// it is moved by too, each part of it. Shape [particle_count + coarse_count] rows; empty for pins and for the coarsest level.
+    pub leaders: Csr<Leader>,
     /// For each particle the pins that hold it; shape [particle_count] rows. Empty rows unless the rule is [`Rule::Hierarchical`].
     pub attachments: Csr<Attachment>,
     /// Particles that a seam pulls together, sorted by colour. Empty once merged.
@@ -127,6 +136,34 @@ pub struct Strand {
     pub lengths: u32,
     /// Levels; at least 1. Limits of the highest span 2^(level_count − 1) steps.
     pub level_count: u32,
+}
+
+/// A particle that stands for those around it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CoarseParticle {
+    /// The particle of the cloth where it is.
+    pub site: u32,
+    /// Inverse of the mass that it carries [1/kg]: the part of each particle that it leads. So what keeps momentum among coarse particles keeps it
+    /// among those that they lead. 0 where a pin is.
+    pub inverse_mass: f32,
+}
+
+/// Coarse particles and the limits between them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Level {
+    /// Where they stand in [`Model::coarse_particles`]. Of those of the level below no two neighbours.
+    pub particles: Range<u32>,
+    /// Limits of each colour in [`Model::coarse_limits`]: no two of them share a coarse particle.
+    pub colours: Vec<Range<u32>>,
+}
+
+/// A coarse particle that leads another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Leader {
+    /// Index into [`Model::coarse_particles`].
+    pub coarse: u32,
+    /// Part that it has in what the other is moved by [1]. The parts of all leaders of a particle sum to 1.
+    pub part: f32,
 }
 
 /// A maximum distance of a particle from a pin.

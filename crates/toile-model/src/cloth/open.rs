@@ -43,7 +43,7 @@ impl Model {
             quads: 0..model.quad_count(),
             worst_angle: 90.0,
         }];
-        model.add_flat_strands(&flat);
+        model.add_long_limits(&flat, settings.velocity_modification.coarse);
         if model.rule == Rule::Hierarchical {
             model.attachments = model.attachments(&flat, &pin_groups(sheet));
         }
@@ -89,7 +89,7 @@ impl Model {
         }
         let mut model = Self::from_flat(&flat, &places, quads, settings);
         model.panels = panels;
-        model.add_flat_strands(&flat);
+        model.add_long_limits(&flat, settings.velocity_modification.coarse);
         (model.holds, model.held_particles) = holds(garment, &edge_particles, &places);
         (model.seam_pairs, model.seam_names) = seam_pairs(garment, &edge_particles, &model.positions);
         let stiffness = SEAM_STIFFNESS * settings.fabric.structural_stiffness as f32;
@@ -140,12 +140,18 @@ impl Model {
         }
     }
 
-    /// Strands of panels that are not sewn.
-    fn add_flat_strands(&mut self, flat: &[DVec2]) {
+    /// Strands, or levels of coarse particles, of panels that are not sewn.
+    fn add_long_limits(&mut self, flat: &[DVec2], is_coarse: bool) {
         if self.rule == Rule::Hierarchical {
             let member_of: Vec<u32> = (0..flat.len() as u32).collect();
             let quads = self.quads.clone();
-            self.add_strands(&Cloth::new(&quads, &self.panels, flat, &member_of, flat.len(), self.threshold));
+            let panels = self.panels.clone();
+            let cloth = Cloth::new(&quads, &panels, flat, &member_of, flat.len(), self.threshold);
+            if is_coarse {
+                self.add_levels(&cloth);
+            } else {
+                self.add_strands(&cloth);
+            }
         }
     }
 }

@@ -46,7 +46,12 @@ impl Model {
         (model.quads, model.panels) = self.sewn_quads(&member_of);
         if self.rule == Rule::Hierarchical {
             let flat: Vec<DVec2> = self.flat.iter().map(|p| p.as_dvec2()).collect();
-            model.add_strands(&Cloth::new(&self.quads, &self.panels, &flat, &member_of, count, self.threshold));
+            let cloth = Cloth::new(&self.quads, &self.panels, &flat, &member_of, count, self.threshold);
+            if self.levels.is_empty() {
+                model.add_strands(&cloth);
+            } else {
+                model.add_levels(&cloth);
+            }
         }
         let mut model = model.complete();
         model.add_bending();

@@ -9,6 +9,9 @@ use toile_scene::{Friction, Polish, Rule, Settings, VelocityModification, Wind};
 /// whips or slaps on a body and longer limits are slack.
 const LIMIT_PASSES: u32 = 2;
 
+/// Sweeps of limits between coarse particles.
+const COARSE_SWEEPS: u32 = 2;
+
 /// Passes over single springs after all sweeps: in one, springs of the first colours get back part of what they lost from those that come
 /// after them. There are as many again for each time that the longest limits double [`CELLS_OF_SMALL_CLOTH`].
 const GUARD_PASSES: u32 = 2;
@@ -71,7 +74,8 @@ impl StepSettings {
         let frame = 1.0 / settings.frame_rate;
         let bound = model.step_wanted.unwrap_or(f64::INFINITY).min(settings.safety * stable_step(model));
         let steps_per_frame = (frame / bound - 1e-3).ceil().max(1.0);
-        let VelocityModification { rule, sweeps, polish } = settings.velocity_modification;
+        let VelocityModification { rule, sweeps, polish, .. } = settings.velocity_modification;
+        let rule_sweeps = if model.levels.is_empty() { rule.sweeps() } else { COARSE_SWEEPS };
         let doublings = doublings(model);
         Self {
             dt: (frame / steps_per_frame) as f32,
@@ -89,7 +93,7 @@ impl StepSettings {
             hold_rate: 10.0,
             hold_speed: 0.5,
             rule,
-            sweeps: sweeps.unwrap_or(rule.sweeps() + doublings.min(1)),
+            sweeps: sweeps.unwrap_or(rule_sweeps + doublings.min(1)),
             guard_passes: GUARD_PASSES * (1 + doublings),
             polish,
             swept: settings.swept,
@@ -98,6 +102,8 @@ impl StepSettings {
 }
 
 impl StepSettings {
+    /// How often a sweep goes over the limits of a level of coarse particles.
+    pub const COARSE_PASSES: u32 = 2;
     /// Most steps of a frame. The default rule has 16 at 60 frames per second and 960 at one; a rule that leaves the tension to stiff springs
     /// has hundreds on fine cloth. More of them are a slip in a scene, which must not ask for years.
     pub const STEPS_PER_FRAME_MAX: u32 = 10_000;

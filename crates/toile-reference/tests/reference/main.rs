@@ -1,5 +1,6 @@
 //! Physics and measurements of the reference.
 
+mod coarse;
 mod contact;
 mod distance;
 mod free_fall;
