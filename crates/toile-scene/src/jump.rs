@@ -13,6 +13,9 @@ const TURN_RATE: f64 = 7.0 * TAU;
 /// What lasts longer is a motion, however fast [s]. Clips have their keys at least ten times in a second.
 const SECONDS_MAX: f64 = 0.1;
 
+/// A motion is looked at in parts of at least that length, however short the time that is asked for [s].
+const PART_MIN: f64 = 1e-3;
+
 /// What goes less far in all is left to the cloth, which follows it by itself [m].
 const DISTANCE_MIN: f64 = 0.5;
 
@@ -64,16 +67,17 @@ impl Lead {
     /// all.
     pub fn jump(&self, from: f64, to: f64) -> Option<Jump> {
         let seconds = to - from;
-        let jump = self.fast(from, seconds)?;
+        // Who goes back in time, as a host that poses a body anew does, tells of no motion.
+        let jump = self.fast(from, seconds).filter(|_| seconds > 0.0)?;
         let (mut distance, mut angle, mut lasts) = (jump.distance, jump.angle, seconds);
-        for direction in [-1.0, 1.0] {
-            let mut start = from + direction * seconds;
+        let part = seconds.max(PART_MIN);
+        for (mut start, direction) in [(from - part, -1.0), (to, 1.0)] {
             // A part of a motion is none that lasts too long; so this ends.
-            while let Some(next) = self.fast(start, seconds).filter(|_| lasts <= SECONDS_MAX) {
+            while let Some(next) = self.fast(start, part).filter(|_| lasts <= SECONDS_MAX) {
                 distance += next.distance;
                 angle += next.angle;
-                lasts += seconds;
-                start += direction * seconds;
+                lasts += part;
+                start += direction * part;
             }
         }
         (lasts <= SECONDS_MAX.max(seconds) && (distance > DISTANCE_MIN || angle > ANGLE_MIN)).then_some(jump)
@@ -157,5 +161,15 @@ mod tests {
         assert_eq!(jumps(&ball(&[(0.0, 0.0, 0.0), (1.0, 40.0, 0.0)])), [], "who flies does so for long");
         let still = Lead { rig: Rig::rigid(Vec::new()), joint: 0 };
         assert_eq!(jumps(&still), []);
+    }
+
+    #[test]
+    fn who_goes_back_in_time_or_hardly_on_is_answered_too() {
+        let lead = ball(&[(0.0, 0.0, 0.0), (0.51, 0.0, 0.0), (0.51, 2.0, 0.0), (1.0, 2.0, 0.0)]);
+        assert_eq!(lead.jump(0.9, 0.1), None);
+        assert_eq!(lead.jump(0.2, 0.2), None);
+        assert_eq!(lead.jump(0.2, 0.2 + 1e-12), None);
+        let jump = lead.jump(0.51 - 1e-9, 0.51 + 1e-9).expect("it jumps between the two");
+        assert!((jump.distance - 2.0).abs() < 1e-12, "{jump:?}");
     }
 }
