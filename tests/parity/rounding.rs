@@ -75,3 +75,24 @@ fn worn_strands() -> Input {
 fn strands_of_worn_cloth_agree() {
     agrees(Kernel::LimitStrands, worn_strands());
 }
+
+/// Pairs of a seam that lie on one another and part so slowly that the squares of their ways are denormal numbers, or nothing.
+fn shut_seams(kernel: Kernel) -> Input {
+    let mut input = input(kernel, 1757, Variant::Coulomb);
+    let random = &mut Random::new(3);
+    for pair in &input.model.seam_pairs {
+        let [a, b] = pair.ends.map(|end| end as usize);
+        input.particles.positions[b] = input.particles.positions[a];
+        input.particles.velocities[a] = Vec3::ZERO;
+        let speed = 10.0f32.powf(random.between(-24.0, -12.0));
+        input.particles.velocities[b] = random.vector(speed);
+    }
+    input
+}
+
+#[test]
+fn seams_that_are_shut_agree_on_drivers_that_flush_denormal_numbers() {
+    for kernel in [Kernel::DrawSeams, Kernel::CloseSeams] {
+        agrees(kernel, shut_seams(kernel));
+    }
+}

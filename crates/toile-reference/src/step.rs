@@ -2,6 +2,7 @@
 
 mod close_seams;
 mod collide;
+mod draw_seams;
 mod euler;
 mod grant_sweep;
 mod hold_edges;
@@ -27,13 +28,15 @@ mod sample_moving_layers;
 mod sample_moving_sides;
 mod sample_shapes;
 mod sample_sides;
+mod seam;
 mod side_planes;
 mod spring_forces;
 mod warm_start;
 mod wind_forces;
 
-pub use close_seams::{close_seams, draw_seams};
+pub use close_seams::close_seams;
 pub use collide::{Probes, collide};
+pub use draw_seams::draw_seams;
 pub use euler::euler;
 pub use grant_sweep::{PolishState, grant_sweep};
 pub use hold_edges::hold_edges;
