@@ -21,9 +21,42 @@ Exit codes:
   3    done and written, but a garment is not on: fallen off, caught, moving, with an empty opening or an open seam
   130  interrupted";
 
+/// The shortest ways to a result.
+const EXAMPLES: &str = "\
+Examples:
+  toile dress
+  toile dress --body scan.ply --body-units mm --garment skirt.json --garment shirt.json --fabric wool
+  toile walk --body person.glb --clip walk --garment skirt.json --seconds 4 --out walking
+  toile run hang.toml --set n=128
+  toile adapters";
+
+const DRESS_EXAMPLES: &str = "\
+Examples:
+  toile dress
+  toile dress --body scan.ply --body-units mm --garment skirt.json --garment shirt.json --fabric wool --spacing 8mm";
+
+const WALK_EXAMPLES: &str = "\
+Examples:
+  toile walk --motion pirouette
+  toile walk --body person.glb --clip walk --garment skirt.json --garment shirt.json --seconds 4 --fps 30 --out walking";
+
+const RUN_EXAMPLES: &str = "\
+Examples:
+  toile run hang.toml
+  toile run hang.toml --set n=128 --set fabric=silk --set fabric.threshold=0.01";
+
+const RULES_EXAMPLES: &str = "\
+Examples:
+  toile rules moving-ball.toml --set n=32";
+
+const PLAN_EXAMPLES: &str = "\
+Examples:
+  toile plan ball.toml --set n=64
+  toile plan --garment skirt.json --picture limits.svg";
+
 /// Cloth simulation on the GPU: sews garments around bodies, drapes them, and says how well.
 #[derive(Debug, Parser)]
-#[command(name = "toile", version, after_help = EXIT_CODES)]
+#[command(name = "toile", version, after_help = format!("{EXAMPLES}\n\n{EXIT_CODES}"))]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
@@ -68,22 +101,22 @@ pub struct Outfit {
     #[arg(long, value_name = "NAME")]
     pub clip: Option<String>,
     /// Time in the clip [s].
-    #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = parse_time)]
+    #[arg(long, value_name = "SECONDS", default_value = "0", requires = "clip", value_parser = parse_time, allow_hyphen_values = true)]
     pub time: f64,
     /// Garment as GarmentCode JSON; repeat it to wear one over the other, inner ones first.
     #[arg(long, value_name = "FILE")]
     pub garment: Vec<PathBuf>,
     /// Distance of neighbouring particles.
-    #[arg(long, value_name = "LENGTH", default_value = "1cm", value_parser = parse_spacing)]
+    #[arg(long, value_name = "LENGTH", default_value = "1cm", value_parser = parse_spacing, allow_hyphen_values = true)]
     pub spacing: f64,
     /// Edge length of a map texel.
-    #[arg(long, value_name = "LENGTH", default_value = "0.5cm", value_parser = parse_texel)]
+    #[arg(long, value_name = "LENGTH", default_value = "0.5cm", value_parser = parse_texel, allow_hyphen_values = true)]
     pub texel: f64,
     /// Fabric: the name of a preset or a TOML file.
     #[arg(long, value_name = "NAME|FILE", default_value = "cotton")]
     pub fabric: String,
     /// Further sweeps in steps that leave an elongation above TARGET, at most SWEEPS in a step; not while sewing.
-    #[arg(long, value_name = "TARGET,SWEEPS", value_parser = parse_polish)]
+    #[arg(long, value_name = "TARGET,SWEEPS", value_parser = parse_polish, allow_hyphen_values = true)]
     pub polish: Option<Polish>,
 }
 
@@ -104,8 +137,16 @@ pub struct Running {
     pub place: Place,
 }
 
+impl Running {
+    /// Whether nothing is said of how far it is.
+    pub fn hides_progress(&self) -> bool {
+        self.quiet || self.json
+    }
+}
+
 /// `toile dress`.
 #[derive(Args, Debug)]
+#[command(after_help = DRESS_EXAMPLES)]
 pub struct Dress {
     /// What is worn.
     #[command(flatten)]
@@ -117,6 +158,7 @@ pub struct Dress {
 
 /// `toile walk`.
 #[derive(Args, Debug)]
+#[command(after_help = WALK_EXAMPLES)]
 pub struct Walk {
     /// What is worn; the body is an animated glTF or GLB.
     #[command(flatten)]
@@ -125,10 +167,10 @@ pub struct Walk {
     #[arg(long, value_enum, conflicts_with_all = ["body", "clip"])]
     pub motion: Option<MotionName>,
     /// Length of the walk [s]; without it, that of the clip.
-    #[arg(long, value_name = "SECONDS", value_parser = parse_time)]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_time, allow_hyphen_values = true)]
     pub seconds: Option<f64>,
     /// Frames per second.
-    #[arg(long, value_name = "RATE", default_value = "30", value_parser = parse_rate)]
+    #[arg(long, value_name = "RATE", default_value = "30", value_parser = parse_rate, allow_hyphen_values = true)]
     pub fps: f64,
     /// Dress in the first pose of this clip, and go over to that of --clip in a second: for clips that begin with arms at the body.
     #[arg(long, value_name = "CLIP")]
@@ -137,7 +179,7 @@ pub struct Walk {
     #[arg(long, value_name = "X,Y,Z", value_parser = parse_velocity, allow_hyphen_values = true)]
     pub wind: Option<DVec3>,
     /// Height of the pictures in pixels.
-    #[arg(long, value_name = "PIXELS", default_value_t = 480, value_parser = clap::value_parser!(u32).range(40..=2160))]
+    #[arg(long, value_name = "PIXELS", default_value_t = 480, value_parser = clap::value_parser!(u32).range(40..=2160), allow_hyphen_values = true)]
     pub height: u32,
     /// From where the pictures look; repeat it for several side by side.
     #[arg(long, value_enum, default_values_t = [ViewName::ThreeQuarter, ViewName::Side])]
@@ -155,6 +197,7 @@ pub struct Walk {
 
 /// `toile run`.
 #[derive(Args, Debug)]
+#[command(after_help = RUN_EXAMPLES)]
 pub struct Run {
     /// Scene file.
     pub scene: PathBuf,
@@ -168,6 +211,7 @@ pub struct Run {
 
 /// `toile rules`.
 #[derive(Args, Debug)]
+#[command(after_help = RULES_EXAMPLES)]
 pub struct Rules {
     /// Scene file.
     pub scene: PathBuf,
@@ -181,6 +225,7 @@ pub struct Rules {
 
 /// `toile plan`.
 #[derive(Args, Debug)]
+#[command(after_help = PLAN_EXAMPLES)]
 pub struct PlanOf {
     /// Scene file; without it, the outfit given by the options.
     #[arg(conflicts_with_all = OUTFIT_OPTIONS)]
@@ -192,7 +237,7 @@ pub struct PlanOf {
     #[command(flatten)]
     pub outfit: Outfit,
     /// Draw the flat panels with strands, loose limits and seams.
-    #[arg(long, value_name = "FILE.svg")]
+    #[arg(long, value_name = "FILE.svg", value_parser = parse_svg)]
     pub picture: Option<PathBuf>,
     /// Print it as JSON, and nothing else.
     #[arg(long)]
@@ -332,6 +377,14 @@ fn parse_polish(text: &str) -> Result<Polish, String> {
     }
 }
 
+fn parse_svg(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.extension() {
+        Some(ending) if ending.eq_ignore_ascii_case("svg") => Ok(path),
+        _ => Err("the picture is an SVG: end the name with .svg".to_owned()),
+    }
+}
+
 fn parse_setting(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
         Some((key, value)) if !key.trim().is_empty() => Ok((key.trim().to_owned(), value.trim().to_owned())),
@@ -403,6 +456,10 @@ mod tests {
             [
                 said(&["toile", "dress", "--spacing", "0"]),
                 said(&["toile", "dress", "--spacing", "10m"]),
+                said(&["toile", "dress", "--spacing", "-1cm"]),
+                said(&["toile", "dress", "--time", "2"]),
+                said(&["toile", "walk", "--seconds", "-1"]),
+                said(&["toile", "plan", "--picture", "limits.png"]),
                 said(&["toile", "dress", "--texel", "big"]),
                 said(&["toile", "dress", "--body-units", "cm"]),
                 said(&["toile", "dress", "--backend", "cuda"]),
@@ -417,6 +474,10 @@ mod tests {
             @"
         invalid value '0' for '--spacing <LENGTH>': it must be 1 mm to 100 mm
         invalid value '10m' for '--spacing <LENGTH>': it must be 1 mm to 100 mm
+        invalid value '-1cm' for '--spacing <LENGTH>': it must be 1 mm to 100 mm
+        the following required arguments were not provided: --clip <NAME>
+        invalid value '-1' for '--seconds <SECONDS>': it is not a time; write seconds, such as 0.5
+        invalid value 'limits.png' for '--picture <FILE.svg>': the picture is an SVG: end the name with .svg
         invalid value 'big' for '--texel <LENGTH>': it is not a length; write 1cm, 5mm or 0.01m
         the following required arguments were not provided: --body <FILE>
         invalid value 'cuda' for '--backend <BACKEND>' [possible values: gpu, reference]

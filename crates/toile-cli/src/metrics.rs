@@ -36,6 +36,8 @@ pub struct ClothMetrics {
     pub name: String,
     /// How it is worn; null of a sheet.
     pub verdict: Option<Told>,
+    /// Elongation that the fabric allows along warp, weft and bias [1].
+    pub threshold: [f64; 3],
     /// What is measured.
     #[serde(flatten)]
     pub measures: Measures,
@@ -56,7 +58,9 @@ impl ClothMetrics {
     pub fn new(worn: &Worn, surfaces: &Surfaces, texel: f32) -> Self {
         let measures = Measures::new(worn, surfaces, texel);
         let verdict = worn.verdict.as_ref().map(|verdict| Told::new(&worn.name, verdict));
-        Self { name: worn.name.clone(), verdict, measures, frames: StrainRow::all(worn) }
+        let threshold = worn.model.threshold;
+        let threshold = [threshold.warp, threshold.weft, threshold.shear];
+        Self { name: worn.name.clone(), verdict, threshold, measures, frames: StrainRow::all(worn) }
     }
 
     /// The cloth on one line, for the terminal.
@@ -68,19 +72,46 @@ impl ClothMetrics {
             0 => format!("{} steps", m.steps_draping),
             sewing => format!("sewn in {sewing} steps to {:.1} mm, draped in {}", m.seam_gap_max_mm, m.steps_draping),
         });
-        parts.push(format!("elongation {:.1} % (99 of 100: {:.1} %)", 1e2 * m.elongation_max, 1e2 * m.elongation_p99));
+        parts.push(elongation(m.elongation_max, m.elongation_p99, self.threshold));
         if m.further_sweeps > 0 {
             parts.push(format!("{} further sweeps, target missed in {} steps", m.further_sweeps, m.missed_steps));
         }
         if let (Some(max), Some(p99)) = (m.penetration_max_mm, m.penetration_p99_mm) {
-            parts.push(format!("penetration {max:.1} mm (99 of 100: {p99:.1} mm)"));
+            parts.push(format!("{} (99 of 100: {})", depth(max), depth(p99)));
         }
         if let (Some(edge), Some(face)) = (m.edge_penetration_max_mm, m.face_penetration_max_mm) {
-            parts.push(format!("edges {edge:.1} mm, faces {face:.1} mm"));
+            parts.push(format!("edges {}, faces {}", depth(edge), depth(face)));
         }
         if let Some(count) = m.crossed_count.filter(|count| *count > 0) {
             parts.push(format!("{count} particles on the wrong side"));
         }
         format!("{}: {}", self.name, parts.join(" · "))
+    }
+}
+
+/// Elongations [1] beside what the fabric allows along warp, weft and bias [1], in words.
+pub fn elongation(max: f64, p99: f64, threshold: [f64; 3]) -> String {
+    let [warp, weft, shear] = threshold.map(|threshold| format!("{:.1}", 1e2 * threshold));
+    let allowed = if warp == weft && weft == shear { warp } else { format!("{warp}, {weft} and {shear}") };
+    format!("elongation {:.1} % of {allowed} % allowed (99 of 100: {:.1} %)", 1e2 * max, 1e2 * p99)
+}
+
+/// How deep something is in a body [mm], in words; what is outside keeps clear of it.
+pub fn depth(millimetres: f64) -> String {
+    let word = if millimetres > 0.0 { "inside" } else { "clear" };
+    format!("{:.1} mm {word}", millimetres.abs())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{depth, elongation};
+
+    #[test]
+    fn numbers_are_words_that_need_no_sign() {
+        assert_eq!([-1.14, 0.0, 2.5].map(depth), ["1.1 mm clear", "0.0 mm clear", "2.5 mm inside"]);
+        let even = elongation(0.048, 0.034, [0.05; 3]);
+        assert_eq!(even, "elongation 4.8 % of 5.0 % allowed (99 of 100: 3.4 %)");
+        let woven = elongation(0.048, 0.034, [0.02, 0.03, 0.1]);
+        assert!(woven.starts_with("elongation 4.8 % of 2.0, 3.0 and 10.0 % allowed"), "{woven}");
     }
 }

@@ -3,6 +3,7 @@
 use crate::interrupt;
 use crate::metrics::Metrics;
 use crate::picture::{self, Drawn, Material, View};
+use crate::progress::Progress;
 use anyhow::{Context, Result, bail};
 use std::fs;
 use std::path::Path;
@@ -21,16 +22,31 @@ pub struct Shown<'a> {
     pub mesh: &'a Mesh,
 }
 
-/// An error when the results could not be written to a folder: better now than after the run. Leaves nothing behind.
-pub fn check(folder: &Path) -> Result<()> {
+/// Views of the pictures, by the names of their files.
+const VIEWS: [(&str, View); 4] =
+    [("front", View::Front), ("three_quarter", View::ThreeQuarter), ("side", View::Side), ("back", View::Back)];
+
+/// An error when the results could not be written to a folder, or would take the place of another program's: better now than after the run.
+/// `told` is the file of the results that tells whose they are. Leaves nothing behind.
+pub fn check(folder: &Path, told: &str) -> Result<()> {
     if folder.exists() && !folder.is_dir() {
         bail!("--out {}: it is a file; name a folder", folder.display());
+    }
+    if fs::read(folder.join(told)).is_ok_and(|bytes| !is_own(&bytes)) {
+        bail!("--out {}: its {told} is not of toile, and would be overwritten; name another folder", folder.display());
     }
     let existing = existing(folder);
     // A file without a name, gone when it is closed.
     tempfile::tempfile_in(existing)
         .map(|_| ())
         .with_context(|| format!("--out {}: cannot write to {}", folder.display(), existing.display()))
+}
+
+/// Whether a JSON file is one that the program writes: each names its adapter, its rules or its sections.
+fn is_own(bytes: &[u8]) -> bool {
+    let Ok(value) = serde_json::from_slice::<serde_json::Value>(bytes) else { return false };
+    let row = value.get(0).unwrap_or(&value);
+    ["adapter", "rule", "sections"].iter().any(|key| row.get(key).is_some())
 }
 
 /// Writes files to a folder of another name, and moves them to `folder` once all are there.
@@ -71,6 +87,7 @@ pub fn write(
     cloths: &[Shown<'_>],
     thickness: f64,
     metrics: &Metrics,
+    hides_progress: bool,
 ) -> Result<()> {
     let mut meshes = Vec::new();
     let mut drawn = Vec::new();
@@ -84,16 +101,17 @@ pub fn write(
     }
     write_glb(&folder.join("dressed.glb"), &meshes)?;
     write_obj(&folder.join("garment.obj"), &joined(cloths))?;
-    let views =
-        [("front", View::Front), ("three_quarter", View::ThreeQuarter), ("side", View::Side), ("back", View::Back)];
+    let progress = Progress::new("pictures", hides_progress);
     let mut pictures = Vec::new();
-    for (name, view) in views {
+    for (name, view) in VIEWS {
         interrupt::check()?;
+        progress.say(format!("drawing {name}"));
         let picture = picture::render(&drawn, view, PICTURE_HEIGHT)?;
         picture::save_png(&folder.join(format!("{name}.png")), &picture)?;
         pictures.push(picture);
     }
     picture::save_png(&folder.join("all_views.png"), &picture::strip(&pictures))?;
+    progress.finish("drawn".to_owned());
     write_atomically(&folder.join("metrics.json"), serde_json::to_string_pretty(metrics)?.as_bytes())?;
     Ok(())
 }

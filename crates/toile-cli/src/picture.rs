@@ -4,6 +4,7 @@
 //! input gives the same bytes, whatever the number of threads.
 
 mod camera;
+mod caption;
 mod colour;
 mod file;
 mod light;
@@ -13,6 +14,7 @@ mod soup;
 #[cfg(test)]
 mod tests;
 
+pub use caption::caption;
 pub use file::{save_gif, save_png, stack, strip};
 
 use camera::Camera;

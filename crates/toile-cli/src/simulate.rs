@@ -17,7 +17,7 @@ use toile::scene::{Cloth, Mesh, Scene};
 
 /// Simulates a scene: garments are dressed one after another, sheets run for a number of frames. Writes the results.
 pub fn simulate(file: SceneFile, options: &FitOptions, running: &Running) -> Result<Outcome> {
-    output::check(&running.out)?;
+    output::check(&running.out, "metrics.json")?;
     check_bodies(&file.scene, running.place.backend)?;
     let fit = fit::look(&file.scene, options)?;
     let scene = &fit.scene;
@@ -31,7 +31,7 @@ pub fn simulate(file: SceneFile, options: &FitOptions, running: &Running) -> Res
         Backend::Gpu => Computer::Gpu(adapter::open(&running.place)?),
         Backend::Reference => Computer::Reference,
     };
-    let all = worn::run(&fit, file.frames, &computer, running.quiet)?;
+    let all = worn::run(&fit, file.frames, &computer, running)?;
     let end = end(&all);
     let mut surfaces = Surfaces::new(&scene.bodies, scene.settings.fabric.thickness, end);
     let mut measured = Vec::new();
@@ -48,7 +48,8 @@ pub fn simulate(file: SceneFile, options: &FitOptions, running: &Running) -> Res
     bodies.extend(shapes.iter().map(|(name, mesh)| Shown { name, mesh }));
     let cloths: Vec<Shown<'_>> = all.iter().map(|worn| Shown { name: &worn.name, mesh: &worn.mesh }).collect();
     let thickness = scene.settings.fabric.thickness;
-    output::write_whole(&running.out, |folder| output::write(folder, &bodies, &cloths, thickness, &metrics))?;
+    let hides = running.hides_progress();
+    output::write_whole(&running.out, |folder| output::write(folder, &bodies, &cloths, thickness, &metrics, hides))?;
     if running.json {
         print(&serde_json::to_string_pretty(&metrics)?)?;
     } else if !running.quiet {

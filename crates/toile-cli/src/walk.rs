@@ -14,12 +14,12 @@ use crate::look::State;
 use crate::outcome::{self, Outcome};
 use crate::output;
 use crate::picture::{self, Drawn, Material, View};
+use crate::progress::Progress;
 use crate::stdout::print;
 use crate::worn::{self, Log};
 use anyhow::{Context, Result, bail};
 use glam::Vec3;
 use image::RgbImage;
-use indicatif::{ProgressBar, ProgressStyle};
 use regions::Regions;
 use rows::{FrameRow, WalkMetrics};
 use saved::Saved;
@@ -96,7 +96,7 @@ impl std::fmt::Write for Digest {
 
 /// Dresses and walks, and writes pictures, motion and metrics.
 pub fn walk(walk: &Walk, running: &Running) -> Result<Outcome> {
-    output::check(&running.out)?;
+    output::check(&running.out, "metrics.json")?;
     if running.place.backend == Backend::Reference {
         bail!("--backend reference: a walk needs a device; toile dress runs without one");
     }
@@ -113,7 +113,7 @@ pub fn walk(walk: &Walk, running: &Running) -> Result<Outcome> {
     match saved.frame_count() {
         0 => {
             let verdicts;
-            (simulation, verdicts) = dress(walk, &gpu, simulation, running.quiet)?;
+            (simulation, verdicts) = dress(walk, &gpu, simulation, running)?;
             saved.begin(&verdicts)?;
             saved.write(0, &simulation.save(&gpu.queue)?, &positions(&gpu, &simulation)?, None)?;
         }
@@ -143,13 +143,13 @@ pub fn walk(walk: &Walk, running: &Running) -> Result<Outcome> {
 }
 
 /// Dresses the garments one over the other, says how they are worn, and has the body go over to the start of its walk.
-fn dress(walk: &Walk, gpu: &Gpu, simulation: Simulation, quiet: bool) -> Result<(Simulation, Vec<Verdict>)> {
+fn dress(walk: &Walk, gpu: &Gpu, simulation: Simulation, running: &Running) -> Result<(Simulation, Vec<Verdict>)> {
     let seconds = 1.0 / walk.settings.frame_rate;
     let mut logs: Vec<Log> = walk.fit.scene.cloths.iter().map(|_| Log::default()).collect();
     let mut engine = Engine::Gpu { gpu, simulation: Box::new(simulation) };
-    worn::dress(&mut engine, &mut logs.iter_mut().collect::<Vec<_>>(), seconds, quiet)?;
+    worn::dress(&mut engine, &mut logs.iter_mut().collect::<Vec<_>>(), seconds, running.hides_progress())?;
     let verdicts = engine.verdicts()?;
-    for (garment, verdict) in walk.fit.scene.cloths.iter().zip(&verdicts).filter(|_| !quiet) {
+    for (garment, verdict) in walk.fit.scene.cloths.iter().zip(&verdicts).filter(|_| !running.quiet) {
         let name = match garment {
             Cloth::Garment(garment) => &garment.name,
             Cloth::Sheet(sheet) => &sheet.name,
@@ -182,7 +182,7 @@ fn simulate(walk: &Walk, gpu: &Gpu, simulation: &mut Simulation, saved: &Saved, 
     let regions = Regions::new(&walk.body);
     let stage = Stage::new(&walk.body, f64::from(walk.frame_count) * seconds);
     std::fs::create_dir_all(&running.out)?;
-    let progress = progress(walk.frame_count, done, running.quiet);
+    let progress = Progress::counted("walking", running.hides_progress(), walk.frame_count, done);
     let mut told = 0;
     let before = simulation.cloths().map(|worn| Ok(worn.cloth.status()?.unwrap_or_default()));
     let mut last: Vec<Status> = before.collect::<Result<_>>()?;
@@ -216,9 +216,10 @@ fn simulate(walk: &Walk, gpu: &Gpu, simulation: &mut Simulation, saved: &Saved, 
         picture::save_png(&picture_path(&running.out, frame), &picture::strip(&views))?;
         row.output_ms = 1e3 * output.elapsed().as_secs_f64();
         saved.write(frame, &simulation.save(&gpu.queue)?, &points, Some(&row))?;
-        progress.inc(1);
+        progress.reach(frame);
+        progress.say(format!("frame {frame} of {}", walk.frame_count));
     }
-    progress.finish();
+    progress.finish(format!("{} frames", walk.frame_count));
     collision_part(gpu, simulation)
 }
 
@@ -244,17 +245,6 @@ fn collision_part(gpu: &Gpu, simulation: &mut Simulation) -> Result<f64> {
         }
     }
     Ok(if whole > 0.0 { collision / whole } else { 0.0 })
-}
-
-fn progress(frame_count: u32, done: u32, quiet: bool) -> ProgressBar {
-    let bar = if quiet { ProgressBar::hidden() } else { ProgressBar::new(u64::from(frame_count)) };
-    let template = "walking: {bar:30} {pos} of {len} frames, {per_sec}, {eta} left";
-    if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style);
-    }
-    bar.set_position(u64::from(done));
-    bar.reset_eta();
-    bar
 }
 
 /// The views of a frame.
@@ -308,8 +298,10 @@ fn finish(walk: &Walk, walkers: &[Walker], saved: &Saved, running: &Running) -> 
             colour: Material::cloth(i).linear_outside(),
         })
         .collect();
+    let progress = Progress::new("files", running.hides_progress());
     let points = |mesh: usize, frame: usize| -> Result<Vec<Vec3>> {
         interrupt::check().context(KEPT)?;
+        progress.say(format!("motion of frame {frame}"));
         saved.positions(frame as u32, mesh)
     };
     write_usda(&running.out.join("walk.usda"), &faces, count, rate, points)?;
@@ -317,8 +309,13 @@ fn finish(walk: &Walk, walkers: &[Walker], saved: &Saved, running: &Running) -> 
         let path = running.out.join(format!("{index}_{}.pc2", walker.name));
         write_pc2(&path, walker.particle_count as usize, count, |frame| points(index, frame))?;
     }
+    progress.say("drawing walk.png".to_owned());
     draw_strip(walk, walkers, saved, &running.out)?;
-    let frames = (1..=walk.frame_count).map(|frame| picture_path(&running.out, frame));
+    let frames = (1..=walk.frame_count).map(|frame| {
+        progress.say(format!("frame {frame} of walk.gif"));
+        picture_path(&running.out, frame)
+    });
     picture::save_gif(&running.out.join("walk.gif"), frames, rate)?;
+    progress.finish("written".to_owned());
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! The cloths of a scene that have been simulated, and the way there.
 
+use crate::args::Running;
 use crate::engine::{Computer, Engine};
 use crate::look::{Look, State};
 use crate::outcome;
@@ -45,17 +46,19 @@ pub struct Worn {
 /// What was seen along the way of a cloth.
 #[derive(Default)]
 pub struct Log {
-    /// Largest elongation at the end of any frame [1].
-    pub elongation_max: f32,
     /// At the end of each frame of the run, or of draping.
     pub statuses: Vec<Status>,
     step_ms: Vec<f64>,
 }
 
 impl Log {
-    fn add(&mut self, status: &Status, settings: &StepSettings, milliseconds: f64) {
+    fn add(&mut self, settings: &StepSettings, milliseconds: f64) {
         self.step_ms.push(milliseconds / f64::from(settings.steps_per_frame));
-        self.elongation_max = self.elongation_max.max(status.elongation_max);
+    }
+
+    /// Largest elongation at the end of any frame of the run, or of draping [1]: while seams close, cloth is drawn out that nobody wears yet.
+    pub fn elongation_max(&self) -> f32 {
+        self.statuses.iter().map(|status| status.elongation_max).fold(0.0, f32::max)
     }
 
     /// Median wall time of a step [ms].
@@ -67,23 +70,24 @@ impl Log {
 }
 
 /// Dresses the garments of a scene one over the other; where it has sheets, everything then runs for its frames.
-pub fn run(fit: &Fit, frames: u32, computer: &Computer, quiet: bool) -> Result<Vec<Worn>> {
+pub fn run(fit: &Fit, frames: u32, computer: &Computer, running: &Running) -> Result<Vec<Worn>> {
     let scene = &fit.scene;
     let mut engine = computer.start(fit)?;
     let seconds = 1.0 / scene.settings.frame_rate;
     let mut logs: Vec<Log> = scene.cloths.iter().map(|_| Log::default()).collect();
     let of_garments = scene.cloths.iter().zip(&mut logs).filter(|(cloth, _)| matches!(cloth, Cloth::Garment(_)));
-    dress(&mut engine, &mut of_garments.map(|(_, log)| log).collect::<Vec<_>>(), seconds, quiet)?;
+    let hides = running.hides_progress();
+    dress(&mut engine, &mut of_garments.map(|(_, log)| log).collect::<Vec<_>>(), seconds, hides)?;
     let mut dressed = engine.dressings().into_iter().zip(engine.verdicts()?);
     if scene.cloths.iter().any(|cloth| matches!(cloth, Cloth::Sheet(_))) {
-        run_frames(&mut engine, &mut logs, scene, frames, seconds, quiet)?;
+        run_frames(&mut engine, &mut logs, scene, frames, seconds, hides)?;
     }
     let (states, bytes) = (engine.states()?, engine.bytes());
     let mut worn = Vec::new();
     for ((look, State { positions, normals, touching }), log) in engine.cloths()?.into_iter().zip(states).zip(logs) {
         let is_garment = matches!(scene.cloths[worn.len()], Cloth::Garment(_));
         let (dressing, verdict) = if is_garment { dressed.next() } else { None }.unzip();
-        if let Some(verdict) = verdict.as_ref().filter(|_| !quiet) {
+        if let Some(verdict) = verdict.as_ref().filter(|_| !running.quiet) {
             outcome::warn(look.name, verdict);
         }
         worn.push(Worn {
@@ -109,7 +113,7 @@ pub fn run(fit: &Fit, frames: u32, computer: &Computer, quiet: bool) -> Result<V
 }
 
 /// Dresses every garment until it is at rest or its time is up. There is a log for each garment.
-pub fn dress(engine: &mut Engine<'_>, logs: &mut [&mut Log], seconds: f64, quiet: bool) -> Result<()> {
+pub fn dress(engine: &mut Engine<'_>, logs: &mut [&mut Log], seconds: f64, hides_progress: bool) -> Result<()> {
     let mut told: Vec<Progress> = Vec::new();
     loop {
         let stage = engine.stage()?;
@@ -131,12 +135,12 @@ pub fn dress(engine: &mut Engine<'_>, logs: &mut [&mut Log], seconds: f64, quiet
         let cloths = engine.cloths()?;
         let look = cloths.last().context("a garment is being dressed")?;
         let log = &mut logs[cloths.len() - 1];
-        log.add(&look.status, &look.settings, milliseconds);
+        log.add(&look.settings, milliseconds);
         if stage == Stage::Draping {
             log.statuses.push(look.status);
         }
         if told.len() < cloths.len() {
-            told.push(Progress::new(look.name, quiet));
+            told.push(Progress::new(look.name, hides_progress));
         }
         if let Some(progress) = told.last() {
             progress.say(stage_line(stage, look));
@@ -163,9 +167,9 @@ fn run_frames(
     scene: &Scene,
     count: u32,
     seconds: f64,
-    quiet: bool,
+    hides_progress: bool,
 ) -> Result<()> {
-    let progress = Progress::new(&scene.name, quiet);
+    let progress = Progress::new(&scene.name, hides_progress);
     logs.iter_mut().for_each(|log| log.statuses.clear());
     let mut frame = 0;
     while frame < count {
@@ -177,7 +181,7 @@ fn run_frames(
         let milliseconds = 1e3 * start.elapsed().as_secs_f64();
         let cloths = engine.cloths()?;
         for (look, log) in cloths.iter().zip(logs.iter_mut()) {
-            log.add(&look.status, &look.settings, milliseconds);
+            log.add(&look.settings, milliseconds);
             log.statuses.push(look.status);
         }
         let elongation = cloths.iter().map(|look| look.status.elongation_max).fold(0.0, f32::max);

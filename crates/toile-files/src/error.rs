@@ -138,7 +138,7 @@ pub enum Fault {
         units_in_meter: f64,
     },
     /// A name that nothing has.
-    #[error("there is no {what} \"{name}\"; there is: {}", listed(.known))]
+    #[error("there is no {what} \"{name}\"{} there is: {}", meant(name, .known), listed(.known))]
     Unknown {
         /// What has names.
         what: &'static str,
@@ -169,6 +169,33 @@ pub enum Fault {
 
 fn listed(names: &[String]) -> String {
     if names.is_empty() { "none".into() } else { names.join(", ") }
+}
+
+/// What stands between a wrong name and the list of right ones: a question for the one that was probably meant, where one is near.
+fn meant(name: &str, known: &[String]) -> String {
+    // A third of the letters may be wrong: more of them make another word.
+    let slips_max = (name.chars().count() / 3).max(1);
+    let nearest = known.iter().map(|known| (slips(name, known), known)).min_by_key(|(slips, _)| *slips);
+    match nearest {
+        Some((slips, known)) if slips <= slips_max => format!("; did you mean \"{known}\"?"),
+        _ => ";".to_owned(),
+    }
+}
+
+/// How many letters must be added, left out or replaced to make one name of another, case aside: Levenshtein's distance.
+fn slips(name: &str, known: &str) -> usize {
+    let letters = |text: &str| text.to_lowercase().chars().collect::<Vec<char>>();
+    let (name, known) = (letters(name), letters(known));
+    let mut row: Vec<usize> = (0..=known.len()).collect();
+    for (i, a) in name.iter().enumerate() {
+        let mut before = std::mem::replace(&mut row[0], i + 1);
+        for (j, b) in known.iter().enumerate() {
+            let least = row[j].min(row[j + 1]) + 1;
+            let replaced = before + usize::from(a != b);
+            before = std::mem::replace(&mut row[j + 1], least.min(replaced));
+        }
+    }
+    row[known.len()]
 }
 
 /// Three significant digits, for a sentence.
@@ -204,5 +231,21 @@ impl Found {
 impl From<Fault> for Found {
     fn from(fault: Fault) -> Self {
         Self { place: Place::File, fault }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Fault, slips};
+
+    #[test]
+    fn the_name_that_was_meant_is_told() {
+        assert_eq!(["wool", "Wol", "woool", "silk"].map(|name| slips(name, "wool")), [0, 1, 1, 4]);
+        let unknown = |name: &str| {
+            let known = ["silk", "wool", "denim"].map(String::from).to_vec();
+            Fault::Unknown { what: "fabric", name: name.into(), known }.to_string()
+        };
+        assert_eq!(unknown("wol"), "there is no fabric \"wol\"; did you mean \"wool\"? there is: silk, wool, denim");
+        assert_eq!(unknown("tweed"), "there is no fabric \"tweed\"; there is: silk, wool, denim");
     }
 }

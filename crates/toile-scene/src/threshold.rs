@@ -30,6 +30,11 @@ impl Threshold {
         (self.weft + (self.warp - self.weft) * sin2 + bias * 4.0 * cos2 * sin2).max(self.least())
     }
 
+    /// The largest of the three [1].
+    pub fn most(&self) -> f64 {
+        self.warp.max(self.weft).max(self.shear)
+    }
+
     /// The smallest of the three [1].
     pub fn least(&self) -> f64 {
         self.warp.min(self.weft).min(self.shear)

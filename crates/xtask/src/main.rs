@@ -43,8 +43,7 @@ fn say(text: &str) {
 
 /// Dresses the built-in body in the built-in dress, or what the options say.
 fn dress(options: &[String]) -> Result<(), String> {
-    cargo(&["build", "--release", "--package", "toile-cli"])?;
-    let toile = built("release")?;
+    let toile = built_for_use()?;
     // The reference needs no adapter, and help needs nothing.
     if !options.iter().any(|option| option.contains("reference") || option == "--help" || option == "-h") {
         ensure_adapter(&toile, "")?;
@@ -56,8 +55,17 @@ fn dress(options: &[String]) -> Result<(), String> {
 
 /// Makes the films of the documentation.
 fn films(names: &[String]) -> Result<(), String> {
+    films::make(&built_for_use()?, names)
+}
+
+/// The program, built with all optimisation.
+fn built_for_use() -> Result<PathBuf, String> {
+    let toile = built("release")?;
+    if !toile.exists() {
+        say("the first build compiles about 200 crates: several minutes on two cores, and seconds from then on");
+    }
     cargo(&["build", "--release", "--package", "toile-cli"])?;
-    films::make(&built("release")?, names)
+    Ok(toile)
 }
 
 /// Everything that must hold before a change lands. Lints and documentation share one build of the dependencies, the tests

@@ -1,9 +1,9 @@
 //! The outfit that the options name: body, garments, settings.
 
 use crate::args::Outfit;
-use anyhow::{Context, Result};
+use anyhow::{Result, bail};
 use std::path::Path;
-use toile::files::{self, BodyOptions, SceneFile};
+use toile::files::{self, BodyOptions, Fault, SceneFile};
 use toile::model::FitOptions;
 use toile::scene::{Body, Cloth, Fabric, Garment, MovingMesh, Scene, Settings, VelocityModification};
 
@@ -77,10 +77,14 @@ fn options(outfit: &Outfit) -> BodyOptions {
 }
 
 fn fabric(name: &str) -> Result<Fabric> {
-    match Fabric::preset(name) {
-        Some(fabric) => Ok(fabric),
-        None => files::read_fabric(Path::new(name)).with_context(|| {
-            format!("--fabric {name} is neither a preset ({}) nor a fabric file", Fabric::PRESETS.join(", "))
-        }),
+    if let Some(fabric) = Fabric::preset(name) {
+        return Ok(fabric);
     }
+    let path = Path::new(name);
+    if path.extension().is_none() && !path.exists() {
+        let known = Fabric::PRESETS.map(String::from).to_vec();
+        let fault = Fault::Unknown { what: "fabric", name: name.to_owned(), known };
+        bail!("--fabric {name}: {fault}; a TOML file may take its place");
+    }
+    Ok(files::read_fabric(path)?)
 }

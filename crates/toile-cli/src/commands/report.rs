@@ -17,7 +17,7 @@ use toile_report::{EXPERIMENTS, Experiment};
 
 /// Runs the experiments and writes the report, or puts two reports side by side.
 pub fn run(arguments: &ReportOf) -> Result<()> {
-    output::check(&arguments.out)?;
+    output::check(&arguments.out, "report.json")?;
     let (page, json, stem, end) = match arguments.compare.as_slice() {
         [a, b] => {
             let page = page::compare(&read(a)?, &read(b)?);

@@ -12,6 +12,7 @@ use crate::progress::Progress;
 use crate::stdout::print;
 use anyhow::{Context, Result, bail};
 use glam::{DVec3, Vec3};
+use image::RgbImage;
 use serde::Serialize;
 use toile::files::{SceneFile, read_scene, write_atomically};
 use toile::model::{Fit, FitOptions};
@@ -29,6 +30,8 @@ struct Row {
     /// Frames before the state ran away; all of them when it did not.
     frames_sound: u32,
     diverged: bool,
+    /// Largest threshold of the fabric [1].
+    threshold: f64,
     /// Largest elongation at the end of any frame [1].
     elongation_max_over_run: f32,
     /// Largest elongation in the picture [1].
@@ -45,20 +48,19 @@ struct Row {
 pub fn run(arguments: &Rules) -> Result<()> {
     let running = &arguments.running;
     let file = read_scene(&arguments.scene, &arguments.set)?;
-    output::check(&running.out)?;
+    output::check(&running.out, "rules.json")?;
     let computer = match running.place.backend {
         Backend::Gpu => Computer::Gpu(adapter::open(&running.place)?),
         Backend::Reference => Computer::Reference,
     };
     let mut rows = Vec::new();
-    let mut pictures = Vec::new();
+    let mut ends = Vec::new();
     for (name, rule) in Rule::ALL {
-        let (row, mesh, ball) = try_rule(&file, name, rule, &computer, running.quiet || running.json)?;
-        let mut drawn = vec![Drawn::cloth(&mesh, 0, file.scene.settings.fabric.thickness)];
-        drawn.extend(ball.as_ref().map(Drawn::body));
-        pictures.push(picture::render(&drawn, View::ThreeQuarter, PICTURE_HEIGHT)?);
+        let (row, mesh, ball) = try_rule(&file, name, rule, &computer, running.hides_progress())?;
         rows.push(row);
+        ends.push((mesh, ball));
     }
+    let pictures = draw(&file, &rows, &ends)?;
     let text = serde_json::to_string_pretty(&rows)?;
     output::write_whole(&running.out, |folder| {
         picture::save_png(&folder.join("rules.png"), &picture::strip(&pictures))?;
@@ -73,6 +75,25 @@ pub fn run(arguments: &Rules) -> Result<()> {
         print(&format!("wrote {}", running.out.display()))?;
     }
     Ok(())
+}
+
+/// A picture of each rule at its end, all at one scale, with its name and what became of it.
+fn draw(file: &SceneFile, rows: &[Row], ends: &[(Mesh, Option<Mesh>)]) -> Result<Vec<RgbImage>> {
+    // What ran away would make all others specks.
+    let sound = || rows.iter().zip(ends).filter(|(row, _)| !row.diverged).map(|(_, end)| end);
+    let shown: Vec<_> = if sound().next().is_some() { sound().collect() } else { ends.iter().collect() };
+    let meshes = shown.into_iter().flat_map(|(cloth, ball)| std::iter::once(cloth).chain(ball));
+    let bounds = meshes.filter_map(Mesh::bounds);
+    let stage = bounds.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+    let picture = |(row, (cloth, ball)): (&Row, &(Mesh, Option<Mesh>))| -> Result<RgbImage> {
+        let mut drawn = vec![Drawn::cloth(cloth, 0, file.scene.settings.fabric.thickness)];
+        drawn.extend(ball.as_ref().map(Drawn::body));
+        let mut picture = picture::render_in(&drawn, stage.unwrap_or_default(), View::ThreeQuarter, PICTURE_HEIGHT)?;
+        let stretch = format!("{:.1} %", 1e2 * row.elongation_max_over_run);
+        picture::caption(&mut picture, &[row.rule, &row.word(), &stretch]);
+        Ok(picture)
+    };
+    rows.iter().zip(ends).map(picture).collect()
 }
 
 fn try_rule(
@@ -111,6 +132,7 @@ fn try_rule(
         steps_per_frame: step.steps_per_frame,
         frames_sound: 0,
         diverged: false,
+        threshold: scene.settings.fabric.threshold.most(),
         elongation_max_over_run: 0.0,
         elongation_max: 0.0,
         lag_m: None,
@@ -164,9 +186,17 @@ fn lag(positions: &[Vec3], masses: &[f32], point: DVec3) -> f64 {
 }
 
 impl Row {
+    /// What became of the cloth: it holds its threshold where it is never stretched more than twice as far, as the guard of the default has it.
+    fn word(&self) -> String {
+        if self.diverged {
+            return format!("ran away after {} frames", self.frames_sound);
+        }
+        let holds = f64::from(self.elongation_max_over_run) <= 2.0 * self.threshold;
+        if holds { "holds".to_owned() } else { "stretches".to_owned() }
+    }
+
     fn line(&self) -> String {
-        let end =
-            if self.diverged { format!("ran away after {} frames", self.frames_sound) } else { "sound".to_owned() };
+        let end = self.word();
         let lag = match (self.lag_mean_m, self.lag_max_over_run_m) {
             (Some(mean), Some(max)) => {
                 format!(" · {:.1} mm behind the sphere (at most {:.1} mm)", 1e3 * mean, 1e3 * max)
@@ -174,11 +204,12 @@ impl Row {
             _ => String::new(),
         };
         format!(
-            "{:<12} {end} · {} steps per frame · elongation {:.1} % (over the run {:.1} %){lag}",
+            "{:<12} {end} · {} steps per frame · elongation {:.1} %, over the run {:.1} % of {:.1} % allowed{lag}",
             self.rule,
             self.steps_per_frame,
             1e2 * self.elongation_max,
-            1e2 * self.elongation_max_over_run
+            1e2 * self.elongation_max_over_run,
+            1e2 * self.threshold
         )
     }
 }

@@ -26,7 +26,7 @@ pub struct Measures {
     pub elongation_max: f64,
     /// 99th percentile of it [1].
     pub elongation_p99: f64,
-    /// Largest elongation at the end of any frame [1].
+    /// Largest elongation at the end of any frame of the run, or of draping [1].
     pub elongation_max_over_run: f64,
     /// Further sweeps of the polish while draping, or in the run.
     pub further_sweeps: u32,
@@ -96,7 +96,7 @@ impl Measures {
             seam_gap_max_mm: 1e3 * f64::from(worn.seam_gap),
             elongation_max,
             elongation_p99,
-            elongation_max_over_run: f64::from(worn.log.elongation_max),
+            elongation_max_over_run: f64::from(worn.log.elongation_max()),
             further_sweeps: worn.status.further_sweeps,
             missed_steps: worn.status.missed_steps,
             steps_per_frame: worn.settings.steps_per_frame,

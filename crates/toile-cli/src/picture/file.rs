@@ -11,6 +11,8 @@ use std::path::{Path, PathBuf};
 const GIF_SPEED: i32 = 20;
 /// More pictures per second than this a GIF does not show [1/s].
 const GIF_RATE_MAX: f64 = 30.0;
+/// A GIF counts in hundredths of a second [1/s].
+const GIF_CLOCK: f64 = 100.0;
 
 /// All pictures side by side from left to right, upper edges in line. Lower pictures get white below them.
 ///
@@ -66,11 +68,11 @@ fn write_gif(path: &Path, pictures: impl Iterator<Item = PathBuf>, frame_rate: f
     {
         let mut encoder = GifEncoder::new_with_speed(BufWriter::new(&file), GIF_SPEED);
         encoder.set_repeat(Repeat::Infinite)?;
-        // A GIF counts in hundredths of a second: fewer pictures rather than a slower walk.
+        // Fewer pictures rather than a slower walk.
         let stride = (GIF_RATE_MAX.recip() * frame_rate).ceil().max(1.0) as usize;
-        let delay = Delay::from_numer_denom_ms((1e3 * stride as f64 / frame_rate).round() as u32, 1);
         let mut size = None;
-        for picture in pictures.step_by(stride) {
+        for (index, picture) in pictures.step_by(stride).enumerate() {
+            let delay = Delay::from_numer_denom_ms(10 * hundredths(index, stride as f64 / frame_rate), 1);
             let image = image::open(&picture)?.to_rgba8();
             let (width, height) = *size.get_or_insert(image.dimensions());
             // Every frame of a GIF has the size of the first.
@@ -81,6 +83,13 @@ fn write_gif(path: &Path, pictures: impl Iterator<Item = PathBuf>, frame_rate: f
     }
     file.persist(path).map_err(|e| e.error)?;
     Ok(())
+}
+
+/// How long a picture of a GIF stays, when each is due `seconds` after the one before it. The whole keeps its time: what one picture is
+/// rounded by, a later one makes good.
+fn hundredths(index: usize, seconds: f64) -> u32 {
+    let begins = |index: usize| (GIF_CLOCK * seconds * index as f64).round() as u32;
+    begins(index + 1) - begins(index)
 }
 
 /// A temporary file with the rights of any new file; by default they are private.
@@ -101,4 +110,19 @@ fn write(path: &Path, image: &RgbImage) -> Result<(), ImageError> {
     drop(writer);
     file.persist(path).map_err(|e| e.error)?;
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::hundredths;
+
+    #[test]
+    fn a_moving_picture_keeps_its_time() {
+        for rate in [30.0, 24.0, 25.0, 12.5] {
+            let delays: Vec<u32> = (0..4 * rate as usize).map(|index| hundredths(index, 1.0 / rate)).collect();
+            let seconds = delays.len() as f64 / rate;
+            assert!((f64::from(delays.iter().sum::<u32>()) / 100.0 - seconds).abs() < 0.006, "{rate} per second");
+            assert!(delays.iter().max() <= delays.iter().min().map(|least| least + 1).as_ref(), "{delays:?}");
+        }
+    }
 }

@@ -4,7 +4,7 @@ use super::regions::Regions;
 use super::walker::Walker;
 use crate::fit;
 use crate::look::State;
-use crate::metrics::{Told, is_far, reach};
+use crate::metrics::{Told, depth, elongation, is_far, reach};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use toile::Teleport;
@@ -253,18 +253,16 @@ impl WalkMetrics {
     /// The walk on one line, for the terminal.
     pub fn line(&self) -> String {
         format!(
-            "{}: {} particles · {} frames of {} steps · elongation {:.1} % (99 of 100: {:.1} %) · penetration {:.1} mm (99 of \
-             100: {:.1} mm, edges {:.1} mm, faces {:.1} mm) · crossed {} · false contacts {:.2} % · maps {:.0} ms, simulation {:.0} ms (bodies {:.0} ms), output {:.0} ms per frame",
+            "{}: {} particles · {} frames of {} steps · {} · {} (99 of 100: {}, edges {}, faces {}) · crossed {} · false contacts {:.2} % · maps {:.0} ms, simulation {:.0} ms (bodies {:.0} ms), output {:.0} ms per frame",
             self.garments.join(", "),
             self.particle_count,
             self.frame_count,
             self.steps_per_frame,
-            1e2 * self.elongation_max,
-            1e2 * self.elongation_p99_worst,
-            self.penetration_max_mm,
-            self.penetration_p99_worst_mm,
-            self.edge_penetration_max_mm,
-            self.face_penetration_max_mm,
+            elongation(self.elongation_max, self.elongation_p99_worst, self.threshold),
+            depth(self.penetration_max_mm),
+            depth(self.penetration_p99_worst_mm),
+            depth(self.edge_penetration_max_mm),
+            depth(self.face_penetration_max_mm),
             self.crossed_count,
             1e2 * self.false_contact_fraction_mean,
             self.maps_ms_median,

@@ -172,13 +172,18 @@ fn results_replace_older_ones_and_nothing_else() {
     let journey = Journey::new();
     let out = journey.folder.path().join("out");
     fs::create_dir(&out).expect("a folder");
-    fs::write(out.join("metrics.json"), "old").expect("a file");
+    fs::write(out.join("metrics.json"), r#"{ "adapter": "an older one" }"#).expect("a file");
     fs::write(out.join("notes.txt"), "mine").expect("a file");
     let options = ["--set", "n=8", "--set", "frames=1", "--backend", "reference", "--quiet"];
-    good(journey.run(&[&["run", &fixture("scenes/hang.toml")], &options[..]].concat()));
+    let run = || journey.run(&[&["run", &fixture("scenes/hang.toml")], &options[..]].concat());
+    good(run());
     assert_eq!(fs::read_to_string(out.join("notes.txt")).expect("a file"), "mine");
     assert_eq!(journey.metrics("out")["scene"], "hang");
     assert_eq!(journey.names(""), ["out"]);
+    let theirs = r#"{ "accuracy": 0.9 }"#;
+    fs::write(out.join("metrics.json"), theirs).expect("a file");
+    assert!(refused(run()).starts_with("--out out: its metrics.json is not of toile"));
+    assert_eq!(fs::read_to_string(out.join("metrics.json")).expect("a file"), theirs);
 }
 
 #[test]
@@ -232,9 +237,13 @@ fn wrong_options_end_in_one_sentence_and_no_folder() {
     ];
     insta::assert_snapshot!("wrong_options", sentences.join("\n"));
     assert!(refuse(&["run", &hang, "--set", "colour=3"]).contains("key \"colour\": unknown field"));
-    assert!(refuse(&["dress", "--fabric", "tweed"]).contains("neither a preset"));
+    assert!(refuse(&["dress", "--fabric", "tweed"]).contains("there is no fabric \"tweed\""));
+    assert!(refuse(&["dress", "--fabric", "wol"]).contains("did you mean \"wool\"?"));
+    fs::write(journey.folder.path().join("heavy.toml"), "base = \"wool\"\nareal_density = 99\n").expect("a file");
+    let sentence = refuse(&["dress", "--fabric", "heavy.toml"]);
+    assert!(sentence.starts_with("heavy.toml, key \"areal_density\": it is 99"), "{sentence}");
     assert!(refuse(&["run", &hang, "--adapter", "abacus"]).starts_with("--adapter abacus: no adapter"));
-    assert_eq!(journey.names(""), ["file"]);
+    assert_eq!(journey.names(""), ["file", "heavy.toml"]);
 }
 
 #[test]
@@ -557,7 +566,7 @@ fn a_body_that_lies_is_turned_and_dressed() {
     let faces = body.triangles.iter().map(|[a, b, c]| format!("f {} {} {}\n", a + 1, b + 1, c + 1));
     fs::write(journey.folder.path().join("lying.obj"), vertices.chain(faces).collect::<String>()).expect("written");
     let skirt = fixture("garments/skirt.json");
-    let dress = ["dress", "--body", "lying.obj", "--garment", &skirt, "--spacing", "6cm", "--texel", "2cm"];
+    let dress = ["dress", "--body", "lying.obj", "--garment", &skirt, "--spacing", "6cm", "--texel", "2cm", "--json"];
     let output = journey.run(&dress);
     let said = String::from_utf8(output.stderr).expect("UTF-8 text");
     let sentence = "turned the body by -90 degrees about x: +z was up (--up overrules it)";
