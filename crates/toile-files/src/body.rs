@@ -41,6 +41,7 @@ impl Default for BodyOptions {
 
 /// A body as it was read.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct BodyFile {
     /// The clean mesh [m]: equal positions welded, faces outward, a unit normal at every vertex.
     pub mesh: Mesh,

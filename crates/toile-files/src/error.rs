@@ -18,6 +18,7 @@ pub struct FileError {
 
 /// A place in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Place {
     /// The file as a whole.
     File,
@@ -63,6 +64,7 @@ impl fmt::Display for Place {
 
 /// What is wrong with a file.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum Fault {
     /// The operating system refuses to read it.
     #[error("it cannot be read: {0}")]

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 macro_rules! shared {
     ($($name:literal),* $(,)?) => {
-        [$((concat!("shared/", $name), include_str!(concat!("../../../wgsl/shared/", $name, ".wgsl")))),*]
+        [$((concat!("shared/", $name), include_str!(concat!("../wgsl/shared/", $name, ".wgsl")))),*]
     };
 }
 

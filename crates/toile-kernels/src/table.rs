@@ -159,7 +159,7 @@ macro_rules! kernels {
 
             fn text(self) -> &'static str {
                 match self {
-                    $(Kernel::$kernel => include_str!(concat!("../../../wgsl/", $folder, "/", $name, ".wgsl")),)*
+                    $(Kernel::$kernel => include_str!(concat!("../wgsl/", $folder, "/", $name, ".wgsl")),)*
                 }
             }
         }
@@ -273,5 +273,5 @@ impl Kernel {
 /// The WGSL of the render pass that draws the papers' maps: vertex entry `draw_surface` and fragment entry `write_normal` for bodies at
 /// rest, `draw_moving_surface` and `write_normal_and_velocity` for those that move.
 pub fn render_sides_source() -> String {
-    resolve(include_str!("../../../wgsl/maps/render_sides.wgsl"))
+    resolve(include_str!("../wgsl/maps/render_sides.wgsl"))
 }

@@ -2,7 +2,11 @@
 
 /// What cannot be turned into a model.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ModelError {
+    /// A number that no scene has.
+    #[error("{0}")]
+    Range(#[from] toile_scene::OutOfRange),
     /// The spacing is no length.
     #[error("the spacing is {spacing} m: give a positive, finite distance of neighbouring particles")]
     Spacing {

@@ -1,6 +1,10 @@
 //! What the cloth is made of.
 
-use crate::Threshold;
+use crate::{Number, Threshold};
+use std::ops::RangeInclusive;
+
+/// Stiffest springs of a fabric [N/m].
+const STIFFNESS_MAX: f64 = 1e6;
 
 /// What the cloth is made of.
 ///
@@ -34,6 +38,39 @@ pub struct Fabric {
 }
 
 impl Fabric {
+    /// Smallest and largest threshold [1]. D §4.3 has 1 % to 15 %.
+    pub const THRESHOLDS: RangeInclusive<f64> = 0.001..=0.15;
+
+    /// Its numbers, by the names that files give them.
+    pub const NUMBERS: &[Number<Self>] = &[
+        Number { name: "areal_density", range: 1e-3..=10.0, unit: "kg/m²", of: |fabric| &mut fabric.areal_density },
+        Number {
+            name: "structural_stiffness",
+            range: 1e-3..=STIFFNESS_MAX,
+            unit: "N/m",
+            of: |fabric| &mut fabric.structural_stiffness,
+        },
+        Number {
+            name: "shear_stiffness",
+            range: 0.0..=STIFFNESS_MAX,
+            unit: "N/m",
+            of: |fabric| &mut fabric.shear_stiffness,
+        },
+        Number {
+            name: "bend_stiffness",
+            range: 0.0..=STIFFNESS_MAX,
+            unit: "N/m",
+            of: |fabric| &mut fabric.bend_stiffness,
+        },
+        Number { name: "bending_rigidity", range: 0.0..=1.0, unit: "N·m", of: |fabric| &mut fabric.bending_rigidity },
+        Number { name: "damping", range: 0.0..=1e3, unit: "1/s", of: |fabric| &mut fabric.damping },
+        Number { name: "thickness", range: 0.0..=0.05, unit: "m", of: |fabric| &mut fabric.thickness },
+        Number { name: "friction", range: 0.0..=10.0, unit: "", of: |fabric| &mut fabric.friction },
+        Number { name: "threshold.warp", range: Self::THRESHOLDS, unit: "", of: |fabric| &mut fabric.threshold.warp },
+        Number { name: "threshold.weft", range: Self::THRESHOLDS, unit: "", of: |fabric| &mut fabric.threshold.weft },
+        Number { name: "threshold.shear", range: Self::THRESHOLDS, unit: "", of: |fabric| &mut fabric.threshold.shear },
+    ];
+
     /// Names that [`Fabric::preset`] knows, from the softest to the stiffest to bend.
     pub const PRESETS: [&str; 5] = ["silk", "jersey", "cotton", "wool", "denim"];
 

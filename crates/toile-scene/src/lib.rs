@@ -4,12 +4,14 @@
 //! once and everything later is derived from them. Nothing here computes a step.
 
 mod body;
+mod check;
 mod clip;
 mod fabric;
 mod garment;
 mod jump;
 mod mesh;
 mod moving;
+mod number;
 mod outline;
 mod rig;
 mod rigid;
@@ -26,9 +28,10 @@ pub use garment::{Curve, Edge, EdgeRef, Garment, Panel, Placement, Seam};
 pub use jump::{Jump, Lead};
 pub use mesh::Mesh;
 pub use moving::{MeshSequence, Motion, MovingMesh};
+pub use number::{Number, OutOfRange};
 pub use rig::{Joint, LocalTransform, OwnAncestor, Rig, RigNode};
 pub use rigid::{RigidKey, RigidMotion};
-pub use settings::{AIR_DENSITY, AirNumber, Friction, MapKind, Polish, Rule, Settings, VelocityModification, Wind};
+pub use settings::{AIR_DENSITY, Friction, MapKind, Polish, Rule, Settings, VelocityModification, Wind};
 pub use shape::{Form, Shape, ShapeMotion};
 pub use sheet::{Pin, Sheet};
 pub use skin::{Displacement, Influence, Morphs, Pose, Skin, normal_before, turned_normal};

@@ -1,6 +1,6 @@
 //! How a scene is simulated.
 
-use crate::Fabric;
+use crate::{Fabric, Number};
 use glam::DVec3;
 use std::ops::RangeInclusive;
 
@@ -43,6 +43,14 @@ impl Settings {
     pub const FRAME_RATES: RangeInclusive<f64> = 1.0..=1000.0;
     /// Safety factors that leave a step [1].
     pub const SAFETIES: RangeInclusive<f64> = 0.01..=1.0;
+    /// The numbers that have a range, by the names that scenes give them.
+    pub const NUMBERS: &[Number<Self>] = &[
+        Number { name: "spacing", range: Self::SPACINGS, unit: "m", of: |settings| &mut settings.spacing },
+        Number { name: "texel", range: Self::TEXELS, unit: "m", of: |settings| &mut settings.texel },
+        Number { name: "frame_rate", range: Self::FRAME_RATES, unit: "1/s", of: |settings| &mut settings.frame_rate },
+        Number { name: "safety", range: Self::SAFETIES, unit: "", of: |settings| &mut settings.safety },
+        Number { name: "reflection", range: 0.0..=1.0, unit: "", of: |settings| &mut settings.reflection },
+    ];
     /// Most particles of a cloth: four times the 1024² grid that the step is made for.
     pub const PARTICLE_COUNT_MAX: u32 = 4 << 20;
 
@@ -99,24 +107,11 @@ impl Wind {
     }
 
     /// The numbers beside the velocity, by the names that scenes give them.
-    pub const NUMBERS: &[AirNumber] = &[
-        AirNumber { name: "drag", range: 0.0..=100.0, unit: "", of: |wind| &mut wind.drag },
-        AirNumber { name: "lift", range: 0.0..=100.0, unit: "", of: |wind| &mut wind.lift },
-        AirNumber { name: "pressure", range: -1e4..=1e4, unit: "Pa", of: |wind| &mut wind.pressure },
+    pub const NUMBERS: &[Number<Self>] = &[
+        Number { name: "drag", range: 0.0..=100.0, unit: "", of: |wind| &mut wind.drag },
+        Number { name: "lift", range: 0.0..=100.0, unit: "", of: |wind| &mut wind.lift },
+        Number { name: "pressure", range: -1e4..=1e4, unit: "Pa", of: |wind| &mut wind.pressure },
     ];
-}
-
-/// A number of the air.
-#[derive(Clone, Debug)]
-pub struct AirNumber {
-    /// Its name in a scene.
-    pub name: &'static str,
-    /// What it may be.
-    pub range: RangeInclusive<f64>,
-    /// Its unit; empty is 1.
-    pub unit: &'static str,
-    /// Where it is kept.
-    pub of: fn(&mut Wind) -> &mut f64,
 }
 
 /// What keeps the cloth from stretching like rubber.

@@ -1,13 +1,13 @@
 //! Shapes that the cloth meets exactly, without maps.
 
 use crate::{Mesh, RigidMotion};
-use glam::{DQuat, DVec3, Quat, Vec3};
+use glam::{DQuat, DVec3, Vec3};
 
 /// Parallels of a sphere in pictures and files.
 const SPHERE_PARALLELS: u32 = 48;
 
 /// Side of the square that stands for a plane there [m].
-const PLANE_SIDE: f32 = 2.0;
+const PLANE_SIDE: f64 = 2.0;
 
 /// An analytic shape.
 #[derive(Clone, Debug, PartialEq)]
@@ -131,22 +131,23 @@ impl Shape {
             Form::Capsule { half_axis, radius } => {
                 // A sphere around the y axis, its halves drawn apart.
                 let mut mesh = Mesh::sphere(Vec3::ZERO, radius as f32, SPHERE_PARALLELS);
-                let axis = (self.turn(time) * half_axis).as_vec3();
-                let turn = Quat::from_rotation_arc(Vec3::Y, axis.normalize());
+                let axis = self.turn(time) * half_axis;
+                let turn = DQuat::from_rotation_arc(DVec3::Y, axis.normalize());
+                let turned = |vector: Vec3| (turn * vector.as_dvec3()).as_vec3();
                 for (position, normal) in mesh.positions.iter_mut().zip(&mut mesh.normals) {
                     let half = if normal.y < 0.0 { -axis } else { axis };
-                    *position = turn * *position + centre + half;
-                    *normal = turn * *normal;
+                    *position = turned(*position) + centre + half.as_vec3();
+                    *normal = turned(*normal);
                 }
                 mesh
             }
             Form::Plane { normal } => {
-                let normal = (self.turn(time) * normal).as_vec3();
-                let turn = Quat::from_rotation_arc(Vec3::Y, normal);
-                let corner = |x: f32, z: f32| centre + turn * (Vec3::new(x, 0.0, z) * (0.5 * PLANE_SIDE));
+                let normal = self.turn(time) * normal;
+                let turn = DQuat::from_rotation_arc(DVec3::Y, normal);
+                let corner = |x: f64, z: f64| centre + (turn * DVec3::new(x, 0.0, z) * (0.5 * PLANE_SIDE)).as_vec3();
                 Mesh {
                     positions: vec![corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0), corner(-1.0, -1.0)],
-                    normals: vec![normal; 4],
+                    normals: vec![normal.as_vec3(); 4],
                     triangles: vec![[0, 1, 2], [0, 2, 3]],
                 }
             }

@@ -11,6 +11,7 @@ const TOLERANCE: f64 = 1e-6;
 
 /// What a call of [`Simulation::advance`](crate::Simulation::advance) did.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Advance {
     /// Steps that were recorded, of the cloth that has most; 0 when not enough time has passed for one.
     pub step_count: u32,

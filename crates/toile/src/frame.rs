@@ -4,6 +4,7 @@ use toile_gpu::Surface;
 
 /// What a renderer draws: buffers on the device that hold the state at the end of the last recorded frame.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Frame {
     /// Positions [m], vec4 each, xyz used, w the inverse mass [1/kg]; usage `VERTEX | STORAGE | COPY_SRC | COPY_DST`.
     pub positions: wgpu::Buffer,

@@ -17,6 +17,9 @@ mod stage;
 mod state;
 mod strain;
 
+pub use glam;
+pub use wgpu;
+
 pub use clock::Advance;
 pub use cloth::{Cloth, Colliders};
 pub use error::Error;
@@ -25,9 +28,13 @@ pub use outfit::Teleport;
 pub use simulation::{Simulation, Worn};
 pub use stage::Stage;
 pub use strain::Strain;
+#[doc(inline)]
 pub use toile_files as files;
+#[doc(inline)]
 pub use toile_gpu as gpu;
+#[doc(inline)]
 pub use toile_model as model;
+#[doc(inline)]
 pub use toile_scene as scene;
 
 /// Compiles the example of the README.

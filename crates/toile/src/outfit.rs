@@ -34,6 +34,7 @@ pub(crate) struct Laid<'a> {
 
 /// A body that was set elsewhere at once and took its garments along.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Teleport {
     /// When, in the motion of the body [s]: the last time at which it stood where it was.
     pub time: f64,

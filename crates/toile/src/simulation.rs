@@ -18,6 +18,7 @@ const WAITING_SECONDS: f64 = 0.5;
 
 /// One cloth of a simulation.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Worn<'a> {
     /// Name of the garment or sheet.
     pub name: &'a str,

@@ -2,6 +2,7 @@
 
 /// What a simulation is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum Stage {
     /// The seams of a garment are being closed, without gravity.
     Sewing,

@@ -2,6 +2,7 @@
 
 /// How far a cloth is stretched at the end of a frame: measured on the device over every structural and shear spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Strain {
     /// Steps done at the end of that frame.
     pub step: u64,

@@ -1,11 +1,12 @@
 //! The commands of the README: they set up what a fresh machine lacks, then do their work.
 //!
-//! `cargo xtask dress …` is `toile dress …`; `cargo xtask test` checks the format, lints, builds the documentation, runs every test,
-//! runs parity on a second driver and compiles the kernels with a second compiler. CI runs the same.
+//! `cargo xtask dress …` is `toile dress …`; `cargo xtask test` checks the format, lints, checks what is published, builds the documentation,
+//! runs every test, runs parity on a second driver and compiles the kernels with a second compiler. CI runs the same.
 //! `cargo xtask films` makes the films of the documentation, those that are named or all.
 
 mod films;
 mod install;
+mod published;
 mod second_driver;
 mod tint;
 
@@ -75,6 +76,7 @@ fn test() -> Result<(), String> {
     cargo(&["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"])?;
     let mut documentation = command(&cargo_path(), &["doc", "--workspace", "--no-deps", "--document-private-items"]);
     documentation.env("RUSTDOCFLAGS", "--deny warnings");
+    published::check()?;
     run(documentation)?;
     cargo(&["test", "--workspace", "--no-run"])?;
     // The tests compare bits, which a GPU may round otherwise.

@@ -10,6 +10,7 @@ use toile_scene::{Motion, MovingMesh};
 
 /// A moving body as it was read.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct MovingBodyFile {
     /// The body: its mesh is the one that [`read_body`](crate::read_body) gives at time 0 of the clip.
     pub body: MovingMesh,

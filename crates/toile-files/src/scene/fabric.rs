@@ -6,15 +6,8 @@ use crate::scene::scene_toml::{FabricTable, FabricToml, ThresholdTable, Threshol
 use crate::scene::toml_text;
 use crate::scene::value::{within, wrong};
 use crate::source;
-use std::ops::RangeInclusive;
 use std::path::Path;
 use toile_scene::{Fabric, Threshold};
-
-/// Smallest and largest threshold of a fabric [1]. D §4.3 has 1 % to 15 %.
-const THRESHOLD_RANGE: RangeInclusive<f64> = 0.001..=0.15;
-
-/// Stiffest springs of a fabric [N/m].
-const STIFFNESS_MAX: f64 = 1e6;
 
 /// How many files may name each other as base before it is a circle.
 const DEEPEST_BASE: usize = 8;
@@ -69,10 +62,11 @@ fn named(name: &str, key: &str, folder: &Path, depth: usize) -> Result<Fabric, P
 fn fill(table: FabricTable, folder: &Path, name: &str, prefix: &str, depth: usize) -> Result<Fabric, Problem> {
     let base = table.base.as_deref().map(|base| named(base, &format!("{prefix}base"), folder, depth)).transpose()?;
     let base = base.as_ref();
-    let given = |key: &str, own: Option<f64>, inherited: fn(&Fabric) -> f64, [least, most]: [f64; 2], unit: &str| {
-        let key = format!("{prefix}{key}");
-        match own.or(base.map(inherited)) {
-            Some(value) => within(&key, value, least..=most, unit),
+    let given = |name: &str, own: Option<f64>| {
+        let number = Fabric::NUMBERS.iter().find(|number| number.name == name).expect("a number of a fabric");
+        let key = format!("{prefix}{name}");
+        match own.or(base.map(|base| number.value(base))) {
+            Some(value) => within(&key, value, number.range.clone(), number.unit),
             None => Err(wrong(&key, "it is missing; give it, or a base such as \"cotton\"")),
         }
     };
@@ -81,32 +75,14 @@ fn fill(table: FabricTable, folder: &Path, name: &str, prefix: &str, depth: usiz
     let bending_rigidity = table.bending_rigidity.or(base.is_none().then_some(0.0));
     Ok(Fabric {
         name: table.name.unwrap_or_else(|| inherited_name.into()),
-        areal_density: given("areal_density", table.areal_density, |f| f.areal_density, [1e-3, 10.0], "kg/m²")?,
-        structural_stiffness: given(
-            "structural_stiffness",
-            table.structural_stiffness,
-            |f| f.structural_stiffness,
-            [1e-3, STIFFNESS_MAX],
-            "N/m",
-        )?,
-        shear_stiffness: given(
-            "shear_stiffness",
-            table.shear_stiffness,
-            |f| f.shear_stiffness,
-            [0.0, STIFFNESS_MAX],
-            "N/m",
-        )?,
-        bend_stiffness: given(
-            "bend_stiffness",
-            table.bend_stiffness,
-            |f| f.bend_stiffness,
-            [0.0, STIFFNESS_MAX],
-            "N/m",
-        )?,
-        bending_rigidity: given("bending_rigidity", bending_rigidity, |f| f.bending_rigidity, [0.0, 1.0], "N·m")?,
-        damping: given("damping", table.damping, |f| f.damping, [0.0, 1e3], "1/s")?,
-        thickness: given("thickness", table.thickness, |f| f.thickness, [0.0, 0.05], "m")?,
-        friction: given("friction", table.friction, |f| f.friction, [0.0, 10.0], "")?,
+        areal_density: given("areal_density", table.areal_density)?,
+        structural_stiffness: given("structural_stiffness", table.structural_stiffness)?,
+        shear_stiffness: given("shear_stiffness", table.shear_stiffness)?,
+        bend_stiffness: given("bend_stiffness", table.bend_stiffness)?,
+        bending_rigidity: given("bending_rigidity", bending_rigidity)?,
+        damping: given("damping", table.damping)?,
+        thickness: given("thickness", table.thickness)?,
+        friction: given("friction", table.friction)?,
         threshold: threshold(table.threshold, base.map(|f| f.threshold), &format!("{prefix}threshold"))?,
     })
 }
@@ -123,10 +99,10 @@ fn threshold(toml: Option<ThresholdToml>, base: Option<Threshold>, key: &str) ->
             let message = format!("that of the {direction} is missing; give it, or a base such as \"cotton\"");
             Found::malformed(Place::Key(key.into()), message)
         })?;
-        if THRESHOLD_RANGE.contains(&value) {
+        if Fabric::THRESHOLDS.contains(&value) {
             return Ok(value);
         }
-        let [least, most] = [THRESHOLD_RANGE.start(), THRESHOLD_RANGE.end()];
+        let [least, most] = [Fabric::THRESHOLDS.start(), Fabric::THRESHOLDS.end()];
         let message = format!("that of the {direction} is {value} and must be from {least} to {most}: 0.1 % to 15 %");
         Err(Found::malformed(Place::Key(key.into()), message))
     };

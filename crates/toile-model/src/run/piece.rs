@@ -46,8 +46,9 @@ impl Piece {
     /// The cloths of a scene, in its order.
     ///
     /// # Errors
-    /// [`ModelError`] when a garment cannot be meshed, or a frame would take too many steps.
+    /// [`ModelError`] when a number is out of its range, a garment cannot be meshed, or a frame would take too many steps.
     pub fn all(scene: &Scene) -> Result<Vec<Self>, ModelError> {
+        scene.check()?;
         let settings = &scene.settings;
         let piece = |cloth: &Cloth| match cloth {
             Cloth::Sheet(sheet) => {
