@@ -34,6 +34,7 @@ macro_rules! for_every_struct {
             Influence,
             Joint,
             Carry,
+            PinTarget,
             Polish,
             PolishState,
             Status

@@ -246,6 +246,11 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
             see("touches a body", before.contacts.iter().filter(|contact| contact.touching).count());
             see("is turned", particles().filter(|i| changed(*i)).count());
         }
+        Kernel::SetPins => {
+            see("is held", before.pins.iter().filter(|pin| pin.is_held && pin.rate > 0.0).count());
+            see("stands still", before.pins.iter().filter(|pin| pin.is_held && pin.rate == 0.0).count());
+            see("is let go", before.pins.iter().filter(|pin| !pin.is_held).count());
+        }
         // The saboteurs change each line of every kernel, and so tell of the others that the input reaches it.
         _ => {}
     }

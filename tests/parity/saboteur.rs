@@ -65,6 +65,7 @@ const SPARED: &[(&str, Kind, &[&str])] = &[
             "partial <= arrayLength",
         ],
     ),
+    ("after the last pin the last is read once more", Kind::Border, &["k > arrayLength"]),
     ("what stands at the end of a way is answered in any case", Kind::Border, &["k < places"]),
     ("the sum beyond the half is not read", Kind::Border, &["local <= stride"]),
     ("every invocation of a workgroup has its sum", Kind::Turned, &["local != 0u"]),

@@ -20,6 +20,10 @@ fn set_position(particle: u32, position: vec3<f32>) {
     positions[particle] = vec4<f32>(position, positions[particle].w);
 }
 
+fn set_inverse_mass(particle: u32, inverse_mass: f32) {
+    positions[particle] = vec4<f32>(positions[particle].xyz, inverse_mass);
+}
+
 #section velocities
 // With the masses.
 @group(0) var<storage, $access> velocities: array<vec4<f32>>;

@@ -24,7 +24,8 @@ fn limit_attachments(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_
         let attachment = attachments[k];
         let predicted = (position_of(attachment.pin) - position) - velocity * step.dt;
         let predicted_length = length(predicted);
-        if predicted_length > attachment.max_length {
+        // A pin that the host has let go holds nothing.
+        if predicted_length > attachment.max_length && !(inverse_mass_of(attachment.pin) > 0.0) {
             velocity = velocity + predicted * ((predicted_length - attachment.max_length) / (predicted_length * step.dt));
         }
     }

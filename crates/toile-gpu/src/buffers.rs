@@ -84,11 +84,6 @@ impl Buffers {
         self.of_role(role).next().map_or(0, |(_, made)| made.stride as u32)
     }
 
-    /// Whether the buffer with this role has a single entry, the same for all.
-    pub(crate) fn has_one_entry(&self, role: Role) -> bool {
-        self.of_role(role).all(|(_, made)| made.buffer.size() == made.stride)
-    }
-
     /// The buffers of a role, in the order of their names.
     pub(crate) fn of(&self, role: Role) -> impl Iterator<Item = (&'static str, &wgpu::Buffer)> {
         self.of_role(role).map(|(name, made)| (name, &made.buffer))
@@ -171,10 +166,8 @@ impl Contents {
                 return entries(stride, (0..settings.steps_per_frame).map(|left| lag(left, settings)).collect());
             }
             Role::PerStep => {
-                // What stands still has the same entry in every step.
-                let count = if shapes.iter().all(Shape::is_still) { 1 } else { settings.steps_per_frame };
                 let entry = shape_entry(shapes, 0, settings);
-                return entries(stride * shapes.len() as u64, vec![entry; count as usize]);
+                return entries(stride * shapes.len() as u64, vec![entry; settings.steps_per_frame as usize]);
             }
             _ => {}
         }
@@ -220,8 +213,8 @@ impl Contents {
         };
         let usage = match self.role {
             Role::Dispatches => Usage::INDIRECT,
-            Role::Constant | Role::PerSpan | Role::PerStepLeft => Usage::empty(),
-            Role::PerStep => Usage::COPY_DST,
+            Role::PerSpan | Role::PerStepLeft => Usage::empty(),
+            Role::Constant | Role::PerStep => Usage::COPY_DST,
             // Positions and normals are drawn by the host and by the maps of a later garment.
             Role::State | Role::Output | Role::Scratch | Role::Brought => {
                 Usage::VERTEX | Usage::COPY_SRC | Usage::COPY_DST

@@ -1,17 +1,19 @@
 //! What the kernels read, as bytes on the device: each type of the model has its encoding here, once.
 
-use crate::step_params;
+use crate::step_params::{Counts, step_params};
 use encase::{ShaderType, StorageBuffer, UniformBuffer, internal::WriteInto};
 use glam::{Vec3, Vec4};
 use toile_kernels::structs;
-use toile_model::{Attachment, Hold, Limit, Link, MapBox, Model, SeamPair, ShapeStep, SideBox, StepSettings, Strand};
+use toile_model::{
+    Attachment, Hold, Limit, Link, MapBox, Model, PinTarget, SeamPair, ShapeStep, SideBox, StepSettings, Strand,
+};
 use toile_scene::{Displacement, Influence, Polish};
 
 /// Bytes of the buffer of a name that a model and the settings of its step decide; `None` for the others. `after_maps` when shapes are
 /// sampled after maps.
 pub fn constant(name: &str, model: &Model, settings: &StepSettings, after_maps: bool) -> Option<Vec<u8>> {
     Some(match name {
-        "step" => uniform(&step_params(model, settings, after_maps)),
+        "step" => uniform(&step_params(Counts::of(model), settings, after_maps)),
         "polish" => {
             let Polish { target, sweeps } = settings.polish?;
             uniform(&structs::Polish { target_elongation: target as f32, sweeps })
@@ -144,6 +146,12 @@ encode! {
         size_z: map_box.size[2],
         texels_per_metre: 1.0 / map_box.texel,
         column_count: map_box.texel_counts().iter().sum::<u64>() as u32,
+    }
+    |pin: PinTarget| PinTarget {
+        position: pin.position,
+        particle: pin.particle,
+        rate: pin.rate,
+        is_held: u32::from(pin.is_held),
     }
     |influence: Influence| Influence { joint: influence.joint, weight: influence.weight }
     |displacement: Displacement| Displacement {

@@ -5,7 +5,7 @@ use crate::limits::check_limits;
 use crate::maps::padded;
 use crate::trail::{dispatch, sized, vertices_uniform};
 use crate::{GpuError, Program, Surface, Trail};
-use glam::Vec3;
+use glam::{DVec3, Vec3, Vec4};
 use toile_kernels::Kernel;
 use toile_scene::{Lead, MeshSequence, Motion, MovingMesh, Pose, Rig, Skin};
 use wgpu::util::DeviceExt;
@@ -17,6 +17,8 @@ pub struct MovingBody {
     trail: Trail,
     poser: Poser,
     lead: Option<Lead>,
+    /// How far the body stands from where its motion has it [m].
+    place: DVec3,
     /// Time of the last pose [s]; `None` before the first.
     time: Option<f64>,
     bytes: u64,
@@ -85,7 +87,13 @@ impl MovingBody {
             }
             Motion::Sequence(sequence) => Poser::Sequence(sequence.clone()),
         };
-        Ok(Self { surface, trail, poser, lead: body.lead(), time: None, bytes })
+        Ok(Self { surface, trail, poser, lead: body.lead(), place: DVec3::ZERO, time: None, bytes })
+    }
+
+    /// Has the body stand so far from where its motion has it [m]. Its next pose stands still, as the first does.
+    pub fn set_place(&mut self, place: DVec3) {
+        self.place = place;
+        self.time = None;
     }
 
     /// Records the pose at a time [s], and the velocities since the pose before; the first pose stands still. A body that [jumps](Lead::jump)
@@ -93,13 +101,14 @@ impl MovingBody {
     pub fn record_pose(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, time: f64) {
         let jump = self.time.zip(self.lead.as_ref()).and_then(|(last, lead)| Some((last, lead.jump(last, time)?)));
         if let (Some((last, jump)), Poser::Joints(joints)) = (jump, &self.poser) {
-            joints.record(device, encoder, &joints.rig.carried_pose(last, jump.matrix()));
+            joints.record(device, encoder, &joints.rig.carried_pose(last, jump.matrix()), self.place);
         }
         self.trail.record_leaving(encoder);
         match &self.poser {
-            Poser::Joints(joints) => joints.record(device, encoder, &joints.rig.pose(time)),
+            Poser::Joints(joints) => joints.record(device, encoder, &joints.rig.pose(time), self.place),
             Poser::Sequence(sequence) => {
-                let [positions, normals] = sequence.at(time).unwrap_or_default();
+                let [mut positions, normals] = sequence.at(time).unwrap_or_default();
+                positions.iter_mut().for_each(|position| *position += self.place.as_vec3());
                 for (values, target) in [(positions, &self.surface.positions), (normals, &self.surface.normals)] {
                     let upload = upload_vec3s(device, "sequence upload", &values, wgpu::BufferUsages::COPY_SRC);
                     encoder.copy_buffer_to_buffer(&upload, 0, target, 0, upload.size());
@@ -188,12 +197,16 @@ impl Joints {
         Ok((Self { rig: rig.clone(), joints, morph, skin: program, group, vertex_count }, bytes))
     }
 
-    fn record(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, pose: &Pose) {
+    fn record(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, pose: &Pose, place: DVec3) {
         let mut write = |contents: &[u8], target: &wgpu::Buffer| {
             let upload = create(device, "pose upload", contents, wgpu::BufferUsages::COPY_SRC);
             encoder.copy_buffer_to_buffer(&upload, 0, target, 0, upload.size().min(target.size()));
         };
-        write(bytemuck::cast_slice(&pose.joints), &self.joints);
+        // The shares of a vertex in its joints add up to one, so that all of it goes along.
+        let [x, y, z] = place.as_vec3().to_array();
+        let placed = |[a, b, c]: &[Vec4; 3]| [*a + Vec4::W * x, *b + Vec4::W * y, *c + Vec4::W * z];
+        let joints: Vec<[Vec4; 3]> = pose.joints.iter().map(placed).collect();
+        write(bytemuck::cast_slice(&joints), &self.joints);
         if let Some(morph) = &self.morph {
             write(bytemuck::cast_slice(&pose.morph_weights), &morph.weights);
         }

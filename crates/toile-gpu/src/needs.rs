@@ -1,6 +1,6 @@
 //! When each need of the kernel table holds.
 
-use crate::step_params;
+use crate::step_params::{Counts, step_params};
 use toile_kernels::Need;
 use toile_model::{Model, StepSettings};
 use toile_scene::{MapKind, Rule};
@@ -67,7 +67,7 @@ impl<'a> Needs<'a> {
             // What a body has is no need of a cloth.
             Need::Joints | Need::Morphs => false,
             // No pass hangs on whether shapes are sampled after maps.
-            Need::Number(name) => step_params(model, settings, false).has(name),
+            Need::Number(name) => step_params(Counts::of(model), settings, false).has(name),
             Need::Wind => settings.wind.is_some(),
             Need::Body => maps != Maps::None || shapes,
             Need::StillSides => maps == Maps::Sides { moving: false },

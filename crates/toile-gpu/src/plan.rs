@@ -97,7 +97,7 @@ impl Plan {
                     step.extend(polish(&group_passes, &sweep, settings.polish.map_or(0, |polish| polish.sweeps)));
                 }
                 Stage::Frame => frame.extend(group_passes),
-                Stage::Pose | Stage::Maps | Stage::Handover | Stage::Jump | Stage::Measure => {}
+                Stage::Pose | Stage::Maps | Stage::Handover | Stage::Between | Stage::Measure => {}
             }
         }
         Self { step, frame, spans }
@@ -184,7 +184,7 @@ fn passes(row: &Row, model: &Model, settings: &StepSettings, spans: &mut Vec<Spa
         Domain::SeamPair => all(model.seam_pair_count()),
         Domain::SeamColour => coloured(&model.seam_colours, 1, &whole),
         Domain::Workgroup => all(WORKGROUP_SIZE),
-        Domain::Vertex | Domain::TrianglePart | Domain::Column => Vec::new(),
+        Domain::Pin | Domain::Vertex | Domain::TrianglePart | Domain::Column => Vec::new(),
     }
 }
 

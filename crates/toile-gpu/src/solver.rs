@@ -1,17 +1,18 @@
 //! The solver: records the passes of a plan.
 
 use crate::buffers::{Buffers, Start, aligned, shape_entry};
-use crate::contents::uniform;
+use crate::contents::{constant, encoded, uniform};
 use crate::limits::check_limits;
 use crate::status::StatusReader;
+use crate::step_params::{Counts, step_params};
 use crate::timing::{PassTime, Timer};
 use crate::{BodyMaps, GpuError, Maps, Pass, Plan, Program};
-use glam::DMat4;
+use glam::{DMat4, Vec3};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toile_kernels::{Kernel, Role, structs};
-use toile_model::{Merge, Model, Status, StepSettings};
-use toile_scene::Shape;
+use toile_model::{Merge, Model, PinTarget, Status, StepSettings};
+use toile_scene::{Friction, Shape};
 use wgpu::util::DeviceExt;
 
 /// Bytes from one entry of the dispatches to the next: three words for the dispatch, and one that fills the vec4.
@@ -35,13 +36,18 @@ pub struct Solver {
     bound: Vec<BoundProgram>,
     step_dispatches: Vec<Dispatch>,
     frame_dispatches: Vec<Dispatch>,
-    /// Those that move; what stands still is on the device once and for all.
-    moving_shapes: Vec<Shape>,
-    particle_count: u32,
+    shapes: Vec<Shape>,
+    /// Whether the device has still to hear of them; of those that move it hears in every step.
+    shapes_are_new: bool,
+    counts: Counts,
+    /// Whether shapes are sampled after maps.
+    after_maps: bool,
     status: StatusReader,
     step: u64,
     /// Made with the first jump: most cloths see none.
     carrier: Option<Program>,
+    /// Made with the first particle that a host holds.
+    pinner: Option<Program>,
 }
 
 /// Where a step stands, for the uniforms that change with it.
@@ -149,18 +155,20 @@ impl Solver {
         };
         let bound: Vec<_> = programs.into_iter().map(bound).collect();
         let resolved = |passes: &[Pass]| passes.iter().map(|pass| Dispatch::of(pass, &bound, &buffers)).collect();
-        let still = colliders.shapes.iter().all(Shape::is_still);
         Ok(Self {
             settings: settings.clone(),
             step_dispatches: resolved(&plan.step),
             frame_dispatches: resolved(&plan.frame),
             plan,
             bound,
-            moving_shapes: if still { Vec::new() } else { colliders.shapes },
-            particle_count: model.particle_count(),
+            shapes: colliders.shapes,
+            shapes_are_new: false,
+            counts: Counts::of(model),
+            after_maps: colliders.maps.is_some(),
             status: StatusReader::new(device),
             step: 0,
             carrier: None,
+            pinner: None,
             buffers,
         })
     }
@@ -274,7 +282,7 @@ impl Solver {
             }
             .as_entire_binding()
         });
-        let [x, y] = Pass::over(Kernel::StateCopy, self.particle_count).workgroups();
+        let [x, y] = Pass::over(Kernel::StateCopy, self.counts.particles).workgroups();
         let copy = || {
             timer.milliseconds(device, queue, |compute| {
                 compute.set_pipeline(program.pipeline());
@@ -315,7 +323,7 @@ impl Solver {
             }
             .as_entire_binding()
         });
-        let pass = Pass::over(Kernel::MergeParticles, self.particle_count);
+        let pass = Pass::over(Kernel::MergeParticles, self.counts.particles);
         let [x, y] = pass.workgroups();
         let mut compute = encoder.begin_compute_pass(&labelled("handover of a cloth"));
         compute.set_pipeline(program.pipeline());
@@ -347,8 +355,117 @@ impl Solver {
             ("contacts", Some(nothing)) => nothing.as_entire_binding(),
             (name, _) => self.buffers.binding(name),
         });
-        let [x, y] = Pass::over(Kernel::CarryParticles, self.particle_count).workgroups();
+        let [x, y] = Pass::over(Kernel::CarryParticles, self.counts.particles).workgroups();
         let mut compute = encoder.begin_compute_pass(&labelled("a cloth is carried"));
+        compute.set_pipeline(program.pipeline());
+        compute.set_bind_group(0, &group, &[]);
+        compute.dispatch_workgroups(x, y, 1);
+    }
+
+    /// Records other numbers of a step: they hold for what is recorded from now on.
+    ///
+    /// # Panics
+    /// When the numbers ask for other passes, buffers or steps than the cloth has.
+    pub fn record_settings(
+        &mut self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        settings: &StepSettings,
+    ) {
+        let passes = |settings: &StepSettings| StepSettings {
+            gravity: Vec3::ZERO,
+            wind: None,
+            damping: 0.0,
+            friction: 0.0,
+            reflection: 0.0,
+            law: Friction::Coulomb,
+            ..settings.clone()
+        };
+        assert!(
+            passes(settings) == passes(&self.settings),
+            "gravity, wind, damping, friction and reflection change while a cloth runs, nothing else of its step"
+        );
+        let has = |kernel| self.bound.iter().any(|bound| bound.kernel == kernel);
+        let pressure = settings.wind.map_or(0.0, |wind| wind.pressure);
+        assert!(
+            settings.wind.is_none() || has(Kernel::QuadWind),
+            "a cloth without air gets none while it runs: begin with a calm"
+        );
+        assert!(
+            pressure == 0.0 || has(Kernel::PressureForces),
+            "a cloth without pressure gets none while it runs: begin with a small one"
+        );
+        self.settings = settings.clone();
+        self.record_constant(device, encoder, "step", &uniform(&step_params(self.counts, settings, self.after_maps)));
+    }
+
+    /// Records other numbers of springs and limits, from a model that differs in nothing else: they hold for what is recorded from now on.
+    ///
+    /// # Panics
+    /// When the model has another number of anything.
+    pub fn record_model(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, model: &Model) {
+        assert_eq!(
+            self.counts,
+            Counts::of(model),
+            "the numbers of a cloth change while it runs, not what it is made of"
+        );
+        let names: Vec<&'static str> = self.buffers.of(Role::Constant).map(|(name, _)| name).collect();
+        for name in names {
+            if let Some(bytes) = constant(name, model, &self.settings, self.after_maps) {
+                self.record_constant(device, encoder, name, &bytes);
+            }
+        }
+    }
+
+    /// Records other contents of a constant buffer: not a queue write, as the caller may record several frames before submitting any.
+    fn record_constant(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, name: &str, bytes: &[u8]) {
+        let buffer = self.buffers.get(name);
+        assert!(bytes.len() as u64 <= buffer.size(), "{name} has another size: the model is one of another cloth");
+        if bytes.is_empty() {
+            return;
+        }
+        let upload = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some(name),
+            contents: bytes,
+            usage: wgpu::BufferUsages::COPY_SRC,
+        });
+        encoder.copy_buffer_to_buffer(&upload, 0, buffer, 0, bytes.len() as u64);
+    }
+
+    /// Has other shapes from the next step on, as many as before.
+    ///
+    /// # Panics
+    /// When there are more shapes than before, or fewer.
+    pub fn set_shapes(&mut self, shapes: Vec<Shape>) {
+        assert_eq!(shapes.len(), self.shapes.len(), "a cloth keeps as many shapes as it began with");
+        self.shapes = shapes;
+        self.shapes_are_new = true;
+    }
+
+    /// Records that the host holds particles, or lets them go; each is named once.
+    ///
+    /// # Panics
+    /// When a particle does not exist.
+    pub fn record_pins(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, pins: &[PinTarget]) {
+        if pins.is_empty() {
+            return;
+        }
+        let count = self.counts.particles;
+        if let Some(pin) = pins.iter().find(|pin| pin.particle >= count) {
+            panic!("particle {} does not exist: the cloth has {count}", pin.particle);
+        }
+        let program = self.pinner.get_or_insert_with(|| Program::new(device, Kernel::SetPins));
+        let targets = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("pins"),
+            contents: &encoded(pins),
+            usage: wgpu::BufferUsages::STORAGE,
+        });
+        let group = program.bind(device, |binding| match binding.name.as_str() {
+            "pins" => targets.as_entire_binding(),
+            name => self.buffers.binding(name),
+        });
+        let [x, y] = Pass::over(Kernel::SetPins, pins.len() as u32).workgroups();
+        let mut compute = encoder.begin_compute_pass(&labelled("particles that the host holds"));
         compute.set_pipeline(program.pipeline());
         compute.set_bind_group(0, &group, &[]);
         compute.dispatch_workgroups(x, y, 1);
@@ -440,13 +557,16 @@ impl Solver {
         }
     }
 
-    /// Records where moving shapes are in each of the coming steps.
-    fn record_shapes(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, count: u32) {
-        if self.moving_shapes.is_empty() || count == 0 {
+    /// Records where shapes are in each of the coming steps: what stands still is told once, for as many steps as there are.
+    fn record_shapes(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, count: u32) {
+        let still = self.shapes.iter().all(Shape::is_still);
+        if count == 0 || (still && !self.shapes_are_new) {
             return;
         }
+        self.shapes_are_new = false;
+        let count = if still { self.settings.steps_per_frame } else { count };
         let steps = self.step..self.step + u64::from(count);
-        let bytes = aligned(steps.map(|step| shape_entry(&self.moving_shapes, step, &self.settings)));
+        let bytes = aligned(steps.map(|step| shape_entry(&self.shapes, step, &self.settings)));
         let Some((name, shapes)) = self.buffers.of(Role::PerStep).next() else { return };
         // A buffer of its own, not a queue write: the caller may record several frames before submitting any.
         let upload = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
@@ -464,8 +584,6 @@ impl Dispatch {
         let offset = match bound[place].program.offset_role() {
             Some(role @ Role::PerSpan) => Offset::Fixed(buffers.stride(role) * pass.span.unwrap_or_default()),
             Some(role @ Role::PerStepLeft) => Offset::PerStepLeft(buffers.stride(role)),
-            // What stands still has one entry for all steps.
-            Some(role @ Role::PerStep) if buffers.has_one_entry(role) => Offset::Fixed(0),
             Some(role @ Role::PerStep) => Offset::PerStep(buffers.stride(role)),
             _ => Offset::None,
         };

@@ -12,16 +12,26 @@ const SLOT_COUNT: usize = 8;
 /// Reads the status of past frames without stalling.
 #[derive(Debug)]
 pub(crate) struct StatusReader {
-    /// With the step that each reports.
-    slots: Vec<(Slot, u64)>,
+    /// With what each reports.
+    slots: Vec<(Slot, Reported)>,
+    /// How often the solver was set to another state.
+    epoch: u32,
     latest: Mutex<Option<Status>>,
+}
+
+/// What a slot reports.
+#[derive(Clone, Copy, Debug, Default)]
+struct Reported {
+    step: u64,
+    /// What was reported before the solver was set to another state says nothing of this one.
+    epoch: u32,
 }
 
 impl StatusReader {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
         let size = polish_place() + structs::PolishState::min_size().get();
-        let slot = |_| (Slot::new(device, "status readback", size), 0);
-        Self { slots: (0..SLOT_COUNT).map(slot).collect(), latest: Mutex::default() }
+        let slot = |_| (Slot::new(device, "status readback", size), Reported::default());
+        Self { slots: (0..SLOT_COUNT).map(slot).collect(), epoch: 0, latest: Mutex::default() }
     }
 
     /// Records the copy of the status buffer, and of the state of a polish if there is one, after step `step`.
@@ -34,7 +44,7 @@ impl StatusReader {
     ) {
         drop(self.collect());
         let Some((slot, reported)) = self.slots.iter_mut().find(|(slot, _)| slot.is_free()) else { return };
-        *reported = step;
+        *reported = Reported { step, epoch: self.epoch };
         slot.record(encoder, |encoder, target| {
             encoder.copy_buffer_to_buffer(status, 0, target, 0, polish_place());
             if let Some(state) = polish_state {
@@ -50,6 +60,7 @@ impl StatusReader {
 
     /// What was reported of the state that a fresh solver goes on from.
     pub(crate) fn resume(&mut self, status: Option<Status>) {
+        self.epoch += 1;
         self.latest = Mutex::new(status);
     }
 
@@ -57,8 +68,9 @@ impl StatusReader {
     fn collect(&self) -> MutexGuard<'_, Option<Status>> {
         // What a thread that panicked left there is a status all the same.
         let mut newest = self.latest.lock().unwrap_or_else(PoisonError::into_inner);
-        for (slot, step) in &self.slots {
+        for (slot, Reported { step, epoch }) in &self.slots {
             if let Some(status) = slot.take(|bytes| decode(bytes, *step))
+                && *epoch == self.epoch
                 && newest.is_none_or(|latest| status.step >= latest.step)
             {
                 *newest = Some(status);

@@ -5,8 +5,26 @@ use toile_kernels::structs::StepParams;
 use toile_model::{Model, StepSettings};
 use toile_scene::{Friction, Wind};
 
-/// What the kernels read of a model and the settings of its step; `after_maps` when shapes are sampled after maps.
-pub fn step_params(model: &Model, settings: &StepSettings, after_maps: bool) -> StepParams {
+/// How many there are of what the kernels go over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Counts {
+    /// Particles.
+    pub particles: u32,
+    /// Quads and triangles.
+    pub quads: u32,
+    /// Limits of single springs.
+    pub limits: u32,
+}
+
+impl Counts {
+    /// Those of a model.
+    pub fn of(model: &Model) -> Self {
+        Self { particles: model.particle_count(), quads: model.quad_count(), limits: model.limits.len() as u32 }
+    }
+}
+
+/// What the kernels read of the settings of a step; `after_maps` when shapes are sampled after maps.
+pub fn step_params(counts: Counts, settings: &StepSettings, after_maps: bool) -> StepParams {
     let (friction_law, velocity_kept, force_removed) = match settings.law {
         Friction::Coulomb => (0, 0.0, 0.0),
         Friction::Papers { velocity_kept, force_removed } => (1, velocity_kept as f32, force_removed as f32),
@@ -27,8 +45,8 @@ pub fn step_params(model: &Model, settings: &StepSettings, after_maps: bool) -> 
         force_removed,
         hold_rate: settings.hold_rate,
         hold_speed: settings.hold_speed,
-        particle_count: model.particle_count(),
-        quad_count: model.quad_count(),
+        particle_count: counts.particles,
+        quad_count: counts.quads,
         swept: u32::from(settings.swept),
         wind: wind.velocity.as_vec3(),
         drag: wind.drag as f32,
@@ -37,7 +55,7 @@ pub fn step_params(model: &Model, settings: &StepSettings, after_maps: bool) -> 
         thickness: settings.thickness,
         guard_way: settings.guard_way(),
         aim: settings.aim(),
-        limit_count: model.limits.len() as u32,
+        limit_count: counts.limits,
         after_maps: u32::from(after_maps),
     }
 }

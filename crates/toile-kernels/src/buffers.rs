@@ -35,7 +35,7 @@ pub enum Per {
 /// What a run does with a buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// Never changed.
+    /// Changed by the host alone, between steps.
     Constant,
     /// Carries over from step to step: all that a saved simulation needs.
     State,
@@ -134,6 +134,7 @@ buffers! {
     "member_offsets" Listed Brought;
     "members" Listed Brought;
     "carry" Cloth Brought;
+    "pins" Listed Brought;
     "position_copies" Particle Brought;
     "velocity_copies" Particle Brought;
 }

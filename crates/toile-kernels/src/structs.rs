@@ -384,6 +384,18 @@ shared_structs! {
         row_z: vec4,
     }
 
+    /// A particle that the host holds or lets go.
+    PinTarget {
+        /// Where it is wanted [m].
+        position: vec3,
+        /// The particle.
+        particle: u32,
+        /// One by the time that it has for its way [1/s].
+        rate: f32,
+        /// 1: it is held; 0: it is free from now on.
+        is_held: u32,
+    }
+
     /// Further sweeps in the steps that need them.
     Polish {
         /// Elongation that needs no further sweep [1].

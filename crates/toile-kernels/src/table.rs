@@ -23,8 +23,8 @@ pub enum Stage {
     Frame,
     /// Once, when the open model becomes the sewn one.
     Handover,
-    /// When the body is set elsewhere at once.
-    Jump,
+    /// Between steps, when a body or the host sets something elsewhere.
+    Between,
     /// Only when a run is measured.
     Measure,
 }
@@ -40,6 +40,8 @@ pub enum Domain {
     Point,
     /// A hold; one workgroup each.
     Hold,
+    /// A particle that the host holds or lets go.
+    Pin,
     /// A limit.
     Limit,
     /// A limit; one dispatch per colour.
@@ -252,7 +254,9 @@ kernels! {
     /// From the open to the sewn model.
     MergeParticles "frame" "merge_particles" Handover Particle Nothing;
     /// The cloth goes along with a body that jumps.
-    CarryParticles "frame" "carry_particles" Jump Particle Nothing;
+    CarryParticles "frame" "carry_particles" Between Particle Nothing;
+    /// Particles that the host holds, moves and lets go.
+    SetPins "frame" "set_pins" Between Pin Nothing;
     /// The unit of cost.
     StateCopy "frame" "state_copy" Measure Particle Nothing;
 }

@@ -4,6 +4,7 @@ pub(crate) mod dressing;
 pub(crate) mod map_box;
 pub(crate) mod motion;
 pub(crate) mod piece;
+pub(crate) mod pin_target;
 pub(crate) mod shape_step;
 pub(crate) mod side_box;
 pub(crate) mod status;

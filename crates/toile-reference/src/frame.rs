@@ -8,6 +8,7 @@ mod particle_normals;
 mod particle_status;
 mod reduction;
 mod seam_status;
+mod set_pins;
 mod state_copy;
 mod total_energy;
 
@@ -19,5 +20,6 @@ pub use particle_normals::particle_normals;
 pub use particle_status::{ParticleStatus, particle_status};
 pub(crate) use reduction::{GROUP, tree_sum};
 pub use seam_status::seam_status;
+pub use set_pins::set_pins;
 pub use state_copy::state_copy;
 pub use total_energy::total_energy;

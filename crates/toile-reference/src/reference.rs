@@ -5,7 +5,7 @@ use crate::maps::BodyMaps;
 use crate::step::PolishState;
 use crate::{Contact, Lag, Particles, Probe, digest, frame, step};
 use glam::{Vec3, Vec4};
-use toile_model::{Merge, Model, ShapeStep, Status, StepSettings};
+use toile_model::{Merge, Model, PinTarget, ShapeStep, Status, StepSettings};
 use toile_scene::{Polish, Rule, Shape};
 
 /// What the cloth collides with. The default is nothing: then no contact kernel runs.
@@ -120,6 +120,34 @@ impl Reference {
     /// Carries the cloth by the first three rows of a rigid transform, with its velocities and what it touched.
     pub fn carry(&mut self, rows: [Vec4; 3]) {
         frame::carry_particles(&mut self.particles, &mut self.contacts, rows);
+    }
+
+    /// Takes other numbers of a step, from the next one on.
+    ///
+    /// # Panics
+    /// When the length of a step changes.
+    pub fn set_settings(&mut self, settings: &StepSettings) {
+        assert_eq!(settings.dt, self.settings.dt, "the length of a step stays while a cloth runs");
+        self.settings = settings.clone();
+    }
+
+    /// Takes other numbers of springs and limits, from a model of the same cloth.
+    ///
+    /// # Panics
+    /// When the model has another number of particles.
+    pub fn set_model(&mut self, model: &Model) {
+        assert_eq!(model.particle_count(), self.model.particle_count(), "a cloth keeps its particles while it runs");
+        self.model = model.clone();
+    }
+
+    /// Has other shapes from the next step on.
+    pub fn set_shapes(&mut self, shapes: Vec<Shape>) {
+        self.colliders.shapes = shapes;
+    }
+
+    /// Holds particles, or lets them go; each is named once.
+    pub fn set_pins(&mut self, pins: &[PinTarget]) {
+        frame::set_pins(&mut self.particles, pins);
     }
 
     /// Does one step, at whose end the maps show the bodies.

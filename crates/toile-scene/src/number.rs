@@ -47,7 +47,10 @@ pub struct OutOfRange {
 
 impl OutOfRange {
     /// An error where a value lies out of its range, or is no number.
-    pub(crate) fn check(
+    ///
+    /// # Errors
+    /// [`OutOfRange`] with this name.
+    pub fn check(
         name: impl Into<String>,
         value: f64,
         range: &RangeInclusive<f64>,

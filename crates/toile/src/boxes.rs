@@ -1,7 +1,7 @@
 //! Where the maps of the bodies stand, at any time.
 
 use crate::Error;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use toile_gpu::MapSpace;
 use toile_model::MapBox;
 use toile_scene::{MapKind, MovingMesh};
@@ -54,7 +54,7 @@ pub(crate) struct MapPlan {
 impl MapPlan {
     /// Maps that hold it all; `None` where there is nothing to see.
     pub(crate) fn space(&self) -> Option<MapSpace> {
-        let map_box = self.boxes.as_ref().map(|boxes| boxes.at(0.0)).or(self.still_box)?;
+        let map_box = self.boxes.as_ref().map(|boxes| boxes.at(0.0, DVec3::ZERO)).or(self.still_box)?;
         Some(MapSpace { kind: self.kind, map_box, moving: self.boxes.is_some(), area: self.area })
     }
 }
@@ -122,10 +122,11 @@ impl Boxes {
         self.area
     }
 
-    /// The box at a time [s].
-    pub(crate) fn at(&self, time: f64) -> MapBox {
+    /// The box at a time [s], with the bodies so far from where their motion has them [m].
+    pub(crate) fn at(&self, time: f64, place: DVec3) -> MapBox {
         let time = self.round.map_or(time, |round| time.rem_euclid(round)).max(0.0);
-        MapBox::moving(self.around(time), self.texel, self.size)
+        let bounds = self.around(time).map(|corner| corner + place.as_vec3());
+        MapBox::moving(bounds, self.texel, self.size)
     }
 
     /// The box around the bodies from one time of the table to the next; where a body jumps between them, around where it stands.
@@ -168,7 +169,7 @@ pub(crate) fn around_both(a: [Vec3; 2], b: [Vec3; 2]) -> [Vec3; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::{DQuat, DVec3};
+    use glam::DQuat;
     use toile_scene::{Mesh, RigidKey};
 
     fn ball(keys: &[(f64, f64)]) -> MovingMesh {
@@ -191,7 +192,7 @@ mod tests {
         assert_eq!(boxes.size, still.size);
         for time in [0.5, 0.504, 0.506, 0.516] {
             let x = 0.1 * time as f32 + if time > 0.505 { 300.0 } else { 0.0 };
-            let map_box = boxes.at(time);
+            let map_box = boxes.at(time, DVec3::ZERO);
             assert!(map_box.corner().x < x - 0.25 && map_box.far_corner().x > x + 0.25, "{time} s: {map_box:?}");
         }
     }
@@ -202,7 +203,7 @@ mod tests {
         let shelf = [Vec3::new(-0.1, 1.0, 0.0), Vec3::new(0.1, 1.2, 0.1)];
         let boxes = Boxes::new(&bodies, &[shelf], 0.01, 0.002, true).expect("all is finite");
         for time in [0.0, 0.3, 1.0, 7.0] {
-            let map_box = boxes.at(time);
+            let map_box = boxes.at(time, DVec3::ZERO);
             let [low, high] = [map_box.corner(), map_box.far_corner()];
             let x = 2.0 * time.min(1.0) as f32;
             assert!(low.x < -1.25 && high.x > x + 0.25, "{time} s: {map_box:?}");

@@ -37,6 +37,11 @@ impl Clock {
         Self { asked, done }
     }
 
+    /// The same clock in parts of another length, each `ratio` of the present ones; whole parts stay whole.
+    pub(crate) fn in_parts(&self, ratio: u64) -> Self {
+        Self { done: self.done * ratio, ..*self }
+    }
+
     /// Simulated time asked for [s].
     pub(crate) fn asked(&self) -> f64 {
         self.asked

@@ -4,8 +4,8 @@ use crate::{Error, Frame, Strain};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
-use toile_gpu::{BodyMaps, Kernel, PassTime, Plan, Solver, Timer};
-use toile_model::{Merge, Model, Status, StepSettings};
+use toile_gpu::{BodyMaps, Kernel, Mark, PassTime, Plan, Solver, Timer};
+use toile_model::{Merge, Model, PinTarget, Status, StepSettings};
 use toile_scene::Shape;
 use wgpu::util::DeviceExt;
 
@@ -142,6 +142,60 @@ impl Cloth {
     /// that set what they dress elsewhere at once. A [`Simulation`](crate::Simulation) does so by itself where its body jumps.
     pub fn record_carry(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, carry: glam::DMat4) {
         self.solver.record_carry(device, encoder, carry);
+    }
+
+    /// Records other numbers of a step, of which gravity, wind, damping, friction and reflection may change: they hold for what is recorded from now on.
+    /// [`StepSettings::with_numbers_of`] makes them.
+    ///
+    /// # Panics
+    /// When anything else changes, or a cloth without air or pressure would get it: passes of a step stay as they are.
+    pub fn record_settings(
+        &mut self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        settings: &StepSettings,
+    ) {
+        self.solver.record_settings(device, encoder, settings);
+    }
+
+    /// Records other numbers of springs and limits: stiffness, rigidity and threshold, from a model of the same cloth. They hold for what is
+    /// recorded from now on.
+    ///
+    /// # Panics
+    /// When the model is one of another cloth.
+    pub fn record_model(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, model: &Model) {
+        self.solver.record_model(device, encoder, model);
+    }
+
+    /// Records that the host holds particles, moves them or lets them go, each named once. One that moves keeps the velocity that it gets, so
+    /// tell it to stand still once its time is up. One that is held only now is held by the limits; pins of a sheet hold from afar, too.
+    ///
+    /// # Panics
+    /// When a particle does not exist.
+    pub fn record_pins(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, pins: &[PinTarget]) {
+        self.solver.record_pins(device, encoder, pins);
+    }
+
+    /// Has other shapes from the next step on, as many as before. Each moves on the clock of the cloth: its steps so far, times their length.
+    ///
+    /// # Panics
+    /// When there are more shapes than before, or fewer.
+    pub fn set_shapes(&mut self, shapes: Vec<Shape>) {
+        self.colliders.shapes.clone_from(&shapes);
+        self.solver.set_shapes(shapes);
+    }
+
+    /// Records a copy of the state on the device, to which [`Cloth::record_reset`] goes back.
+    pub fn record_mark(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder) -> Mark {
+        self.solver.record_mark(device, encoder)
+    }
+
+    /// Records that the cloth goes on from a mark of its own.
+    ///
+    /// # Panics
+    /// When the mark is that of another cloth.
+    pub fn record_reset(&mut self, encoder: &mut wgpu::CommandEncoder, mark: &Mark) {
+        self.solver.record_reset(encoder, mark);
     }
 
     /// Records that a cloth of the same model takes the state of this one.

@@ -4,13 +4,17 @@
 //! normals and indices. It never submits, never waits and never maps a buffer in the frame loop.
 
 mod boxes;
+mod checkpoint;
 mod clock;
 mod cloth;
+mod control;
+mod controlled;
 mod dressed;
 mod error;
 mod fitting;
 mod frame;
 mod outfit;
+mod pins;
 mod pose;
 mod simulation;
 mod stage;
@@ -20,8 +24,10 @@ mod strain;
 pub use glam;
 pub use wgpu;
 
+pub use checkpoint::Checkpoint;
 pub use clock::Advance;
 pub use cloth::{Cloth, Colliders};
+pub use control::Control;
 pub use error::Error;
 pub use frame::Frame;
 pub use outfit::Teleport;

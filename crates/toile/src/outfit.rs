@@ -1,8 +1,11 @@
 //! Cloths that go together on bodies, each over the ones before it.
 
 use crate::boxes::{Boxes, MapPlan};
+use crate::pins::Pins;
 use crate::{Cloth, Colliders, Error};
+use glam::{DMat4, DVec3};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 use toile_gpu::{BodyMaps, MapsFault, MovingBody, Surface, Trail};
@@ -30,6 +33,8 @@ pub(crate) struct Laid<'a> {
     pub(crate) step: StepSettings,
     /// Whether a body wears it, and takes it along where it jumps; a sheet only lies there.
     pub(crate) is_worn: bool,
+    /// What the host holds of it.
+    pub(crate) pins: Pins,
 }
 
 /// A body that was set elsewhere at once and took its garments along.
@@ -78,6 +83,8 @@ pub(crate) struct Outfit {
     teleports: Vec<Teleport>,
     layers: Vec<Layer>,
     kept: Option<KeptMaps>,
+    /// How far bodies that move stand from where their motion has them [m].
+    place: DVec3,
 }
 
 /// The maps of a body over one round of its motion.
@@ -94,6 +101,8 @@ struct KeptMaps {
 struct Layer {
     cloth: Cloth,
     is_worn: bool,
+    /// What the host holds of it.
+    pins: Pins,
     maps: Option<Arc<BodyMaps>>,
     /// What the maps of the next cloth draw of this one; the outermost has none.
     seen: Option<Seen>,
@@ -140,7 +149,7 @@ impl Outfit {
         let has_meshes = !(moving.is_empty() && still.is_empty());
         let outermost = cloths.len().saturating_sub(1);
         let mut layers: Vec<Layer> = Vec::new();
-        for Laid { model, step, is_worn } in cloths {
+        for Laid { model, step, is_worn, pins } in cloths {
             // Where there is no body to see, the innermost cloth sees nothing.
             let space = space.as_ref().filter(|_| has_meshes || !layers.is_empty());
             let drawn = layers.iter().find_map(|layer| layer.maps.as_ref());
@@ -161,7 +170,7 @@ impl Outfit {
                 let surface = Surface { velocities: Some(trail.velocities().clone()), ..drawn.surface(device) };
                 Seen { surface, trail }
             });
-            layers.push(Layer { cloth, is_worn: *is_worn, maps, seen });
+            layers.push(Layer { cloth, is_worn: *is_worn, pins: pins.clone(), maps, seen });
         }
         let lead = match bodies.moving.as_slice() {
             [only] if layers.iter().any(|layer| layer.is_worn) => only.lead(),
@@ -181,6 +190,7 @@ impl Outfit {
             teleports: Vec::new(),
             layers,
             kept: None,
+            place: DVec3::ZERO,
         })
     }
 
@@ -208,7 +218,7 @@ impl Outfit {
             for (index, drawn) in (1..=count).zip(&mut kept) {
                 let time = f64::from(index) * interval;
                 moving.record_pose(device, encoder, time);
-                let map_box = boxes.at(time);
+                let map_box = boxes.at(time, DVec3::ZERO);
                 drawn.record(device, encoder, map_box, &[(moving.surface(), self.thickness)]);
                 maps.push((drawn, map_box));
             }
@@ -264,6 +274,7 @@ impl Outfit {
         recorder: &mut Recorder<'_>,
     ) -> Result<u32, Error> {
         assert_eq!(parts.start, self.done, "parts follow one another");
+        self.record_pins(device, &parts, recorder)?;
         let mut most = 0;
         while self.done < parts.end {
             let (interval, first) = self.place_in_interval(self.done);
@@ -296,6 +307,86 @@ impl Outfit {
             })?;
         }
         Ok(most)
+    }
+
+    /// Has what the host holds go where it is wanted by the end of these parts.
+    fn record_pins(
+        &mut self,
+        device: &wgpu::Device,
+        parts: &Range<u64>,
+        recorder: &mut Recorder<'_>,
+    ) -> Result<(), Error> {
+        if parts.is_empty() {
+            return Ok(());
+        }
+        let seconds = (parts.end - parts.start) as f64 * self.part_seconds();
+        recorder(Part::Steps, &mut |encoder| {
+            for layer in &mut self.layers {
+                layer.cloth.record_pins(device, encoder, &layer.pins.take(seconds));
+            }
+        })
+    }
+
+    /// Holds these particles of each cloth and no others.
+    pub(crate) fn set_pins<'a>(&mut self, pins: impl Iterator<Item = &'a BTreeMap<u32, DVec3>>) {
+        for (layer, pins) in self.layers.iter_mut().zip(pins) {
+            layer.pins.set(pins);
+        }
+    }
+
+    /// What the host holds of each cloth.
+    pub(crate) fn pins(&self) -> impl Iterator<Item = &Pins> {
+        self.layers.iter().map(|layer| &layer.pins)
+    }
+
+    /// What the device knows of the particles that are held: of a state that was written into the cloths.
+    pub(crate) fn know_pins(&mut self, known: impl Iterator<Item = Pins>) {
+        for (layer, pins) in self.layers.iter_mut().zip(known) {
+            layer.pins = pins;
+        }
+    }
+
+    /// Has the bodies that move stand elsewhere, so far from where their motion has them [m]; they do not move on the way.
+    pub(crate) fn set_place(&mut self, place: DVec3) {
+        self.place = place;
+        self.moving.iter_mut().for_each(|body| body.set_place(place));
+        self.posed = None;
+    }
+
+    /// How far bodies that move stand from where their motion has them [m].
+    pub(crate) fn place(&self) -> DVec3 {
+        self.place
+    }
+
+    /// Has what bodies wear go along by a way [m].
+    pub(crate) fn carry_by(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, way: DVec3) {
+        for layer in self.layers.iter_mut().filter(|layer| layer.is_worn) {
+            layer.cloth.record_carry(device, encoder, DMat4::from_translation(way));
+        }
+    }
+
+    /// Whether anything stands still beside what moves, or the maps of a round are kept: then bodies cannot be set elsewhere.
+    pub(crate) fn is_bound_to_its_place(&self) -> bool {
+        !self.still.is_empty() || self.kept.is_some()
+    }
+
+    /// Takes a cloth away; those over it lie on what is below.
+    pub(crate) fn take_off(&mut self, index: usize) {
+        let before = self.part_seconds();
+        self.layers.remove(index);
+        // Two cloths go on by intervals of the maps, one by steps.
+        self.done *= (before / self.part_seconds()).round() as u64;
+    }
+
+    /// Parts done.
+    pub(crate) fn done(&self) -> u64 {
+        self.done
+    }
+
+    /// Goes back to where so many parts were done, and the body had jumped so often.
+    pub(crate) fn go_back(&mut self, done: u64, teleport_count: usize) {
+        self.teleports.truncate(teleport_count);
+        self.resume(done);
     }
 
     /// Has the bodies stand as they do at the end of an interval, and the innermost maps show them.
@@ -335,9 +426,12 @@ impl Outfit {
             }
             None => self.teleports.push(Teleport { time: from, distance: jump.distance, angle: jump.angle }),
         }
+        // A jump is told where the motion has the body.
+        let [there, back] = [self.place, -self.place].map(DMat4::from_translation);
+        let carry = there * jump.matrix() * back;
         recorder(Part::Steps, &mut |encoder| {
             for layer in self.layers.iter_mut().filter(|layer| layer.is_worn) {
-                layer.cloth.record_carry(device, encoder, jump.matrix());
+                layer.cloth.record_carry(device, encoder, carry);
             }
         })
     }
@@ -361,7 +455,7 @@ impl Outfit {
         }
         self.moving.iter_mut().for_each(|body| body.record_pose(device, encoder, time));
         if let Some(boxes) = &self.boxes {
-            self.shown = Some(boxes.at(time));
+            self.shown = Some(boxes.at(time, self.place));
         }
         if let (Some(innermost), Some(shown)) = (innermost, self.shown) {
             let surfaces = self.still.iter().chain(self.moving.iter().map(MovingBody::surface));

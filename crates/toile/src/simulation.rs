@@ -2,16 +2,20 @@
 
 use crate::boxes::{Boxes, MapPlan, around_both};
 use crate::clock::{Advance, Clock};
+use crate::control::{Control, pins_of};
 use crate::dressed::{Bounds, Done, Dressed};
 use crate::fitting::Fitting;
 use crate::outfit::{Bodies, Laid, Outfit, Part, Recorder, Teleport, maps_of_round, maps_per_frame};
+use crate::pins::Pins;
 use crate::stage::Stage;
 use crate::{Cloth, Colliders, Error, pose};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use std::sync::Arc;
 use toile_gpu::{BodyMaps, MapSpace, Surface, readback};
-use toile_model::{Dressing, DressingStage, Finding, Fit, FitOptions, Judged, MapBox, Model, Piece, Solid, Verdict};
-use toile_scene::{Body, Mesh, MovingMesh, Scene, Settings};
+use toile_model::{
+    Dressing, DressingStage, Finding, Fit, FitOptions, Judged, MapBox, Model, Piece, Solid, StepSettings, Verdict,
+};
+use toile_scene::{Body, Cloth as Cut, Mesh, MovingMesh, Scene, Settings};
 
 /// Time that garments have to hang quietly once the body has gone over to the start of its motion [s].
 const WAITING_SECONDS: f64 = 0.5;
@@ -57,6 +61,9 @@ pub struct Simulation {
     /// Where the maps of the run stand, if its bodies decide that.
     boxes: Option<Boxes>,
     pub(crate) pieces: Vec<Piece>,
+    /// What the pieces are made of.
+    pub(crate) scene_cloths: Vec<Cut>,
+    pub(crate) control: Control,
     pub(crate) keeps_maps: bool,
     pub(crate) clock: Clock,
     pub(crate) phase: Phase,
@@ -117,6 +124,7 @@ impl Simulation {
             }
         }
         let settings = scene.settings.clone();
+        let control = Control::of(&settings, &bodies.shapes, &pieces);
         let mut simulation = Self {
             device: device.clone(),
             way: way.filter(|_| pieces.iter().any(|piece| piece.open.is_some())),
@@ -127,7 +135,9 @@ impl Simulation {
             settings,
             bodies,
             findings: fit.findings.clone(),
+            scene_cloths: scene.cloths.clone(),
             pieces,
+            control,
         };
         if !simulation.bodies.moving.is_empty() {
             // Before any work: a body may lead to no map_box.
@@ -395,15 +405,16 @@ impl Simulation {
         let still_box = self.still_box(&bodies.still.iter().collect::<Vec<_>>(), &[]);
         let rate = self.settings.frame_rate;
         let first = self.pieces.first().map_or(1, |piece| piece.step.steps_per_frame);
-        let parts = maps_per_frame(first, rate);
-        let cloths: Vec<Laid<'_>> = self
-            .pieces
-            .iter()
-            .map(|piece| {
-                let step = if on_the_way.is_some() { piece.step.easing() } else { piece.step.clone() };
-                Laid { model: &piece.model, step: step.in_parts(parts), is_worn: piece.open.is_some() }
-            })
-            .collect();
+        let laid = |piece| {
+            let mut pins = Pins::held(pins_of(piece));
+            if stage == Stage::Running {
+                let index = self.pieces.iter().position(|other| std::ptr::eq(other, piece));
+                index.into_iter().for_each(|index| pins.set(&self.control.pins[index]));
+            }
+            let step = self.step_together(piece, stage, first);
+            Laid { model: &piece.model, step, is_worn: piece.open.is_some(), pins }
+        };
+        let cloths: Vec<Laid<'_>> = self.pieces.iter().map(laid).collect();
         let alike = match &self.phase {
             Phase::Dressing(dressed) => dressed.done.last().map(|done| &done.cloth),
             Phase::Together { outfit, .. } => outfit.cloths().next(),
@@ -413,6 +424,12 @@ impl Simulation {
             + self.under_all();
         let maps = MapPlan { kind: self.settings.maps, boxes, still_box, area };
         Outfit::new(&self.device, &bodies, &cloths, maps, rate, alike)
+    }
+
+    /// The numbers of a step of a piece once all go together, where a frame of the first has so many steps.
+    pub(crate) fn step_together(&self, piece: &Piece, stage: Stage, first: u32) -> StepSettings {
+        let step = if stage == Stage::Posing { piece.step.easing() } else { piece.step.clone() };
+        step.in_parts(maps_per_frame(first, self.settings.frame_rate))
     }
 
     /// Has the maps of a whole round of the body drawn once, when the run begins, and copied from then on; how many bytes they take. D §7, W §6.
@@ -437,7 +454,7 @@ impl Simulation {
         };
         self.keeps_maps = true;
         let area = boxes.area() + self.under_all();
-        let space = MapSpace { kind: self.settings.maps, map_box: boxes.at(0.0), moving: true, area };
+        let space = MapSpace { kind: self.settings.maps, map_box: boxes.at(0.0, DVec3::ZERO), moving: true, area };
         Ok(u64::from(count) * space.bytes())
     }
 
@@ -448,20 +465,29 @@ impl Simulation {
 
     /// The cloths that are on the device, from the inside out: while garments are dressed those that are, and the one that is being dressed.
     pub fn cloths(&self) -> impl Iterator<Item = Worn<'_>> {
-        let cloths: Vec<(&Cloth, DressingStage)> = match &self.phase {
+        let cloths: Vec<&Cloth> = match &self.phase {
             Phase::Dressing(dressed) => {
-                let done = dressed.done.iter().map(|done| (&done.cloth, DressingStage::Dressed));
-                done.chain(dressed.fitting.iter().map(|fitting| (&fitting.cloth, fitting.stage))).collect()
+                let fitting = dressed.fitting.iter().map(|fitting| &fitting.cloth);
+                dressed.done.iter().map(|done| &done.cloth).chain(fitting).collect()
             }
-            Phase::Together { outfit, .. } => outfit.cloths().map(|cloth| (cloth, DressingStage::Dressed)).collect(),
+            Phase::Together { outfit, .. } => outfit.cloths().collect(),
         };
         let dressing = matches!(self.phase, Phase::Dressing(_));
         let pieces = self.pieces.iter().filter(move |piece| !dressing || piece.open.is_some());
-        pieces.zip(cloths).map(|(piece, (cloth, stage))| Worn {
+        pieces.zip(cloths).zip(self.dressing_stages()).map(|((piece, cloth), stage)| Worn {
             name: &piece.name,
             model: piece.model_of(stage),
             cloth,
         })
+    }
+
+    /// How far each of the cloths that are on the device is dressed.
+    pub(crate) fn dressing_stages(&self) -> impl Iterator<Item = DressingStage> {
+        let (dressed, fitting) = match &self.phase {
+            Phase::Dressing(dressed) => (dressed.done.len(), dressed.fitting.as_ref().map(|fitting| fitting.stage)),
+            Phase::Together { outfit, .. } => (outfit.cloths().len(), None),
+        };
+        std::iter::repeat_n(DressingStage::Dressed, dressed).chain(fitting)
     }
 
     /// The cloths themselves, for measuring: [`Cloth::time_step`] goes on by a step.
@@ -522,6 +548,14 @@ impl Simulation {
             Phase::Together { outfit, .. } => Some(outfit),
         };
         outfit.into_iter().flat_map(|outfit| outfit.bodies())
+    }
+
+    /// How far bodies that move stand from where their motion has them [m]: the sum of all [teleports](Simulation::teleport).
+    pub fn place(&self) -> DVec3 {
+        match &self.phase {
+            Phase::Dressing(_) => DVec3::ZERO,
+            Phase::Together { outfit, .. } => outfit.place(),
+        }
     }
 
     /// Where the maps of the cloths stand; `None` without maps and while garments are dressed.

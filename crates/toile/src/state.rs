@@ -4,16 +4,17 @@ use crate::clock::Clock;
 use crate::dressed::{Bounds, Done, Dressed};
 use crate::fitting::Fitting;
 use crate::outfit::Outfit;
+use crate::pins::Pins;
 use crate::simulation::{Phase, Simulation};
 use crate::stage::Stage;
 use crate::{Cloth, Colliders, Error};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use serde::{Deserialize, Serialize};
 use toile_gpu::readback;
 use toile_model::{Dressing, DressingStage, Motion, Piece, Status, digest_of};
 
 /// What the bytes begin with; another layout has another number.
-const MAGIC: &[u8] = b"toile state 3\n";
+const MAGIC: &[u8] = b"toile state 4\n";
 
 /// The whole state of a simulation.
 #[derive(Debug, Serialize, Deserialize)]
@@ -24,6 +25,8 @@ struct State {
     done_parts: u64,
     /// Boxes around the garments when they were dressed, where the maps stand around them.
     garment_bounds: Vec<[[f32; 3]; 2]>,
+    /// How far bodies that move stand from where their motion has them.
+    place: [f64; 3],
     cloths: Vec<SavedCloth>,
 }
 
@@ -110,6 +113,7 @@ impl Simulation {
             asked_seconds: self.clock.asked(),
             done_parts: self.clock.done(),
             garment_bounds,
+            place: self.place().to_array(),
             cloths,
         };
         let body = postcard::to_stdvec(&state).map_err(|error| Error::State(error.to_string()))?;
@@ -198,6 +202,11 @@ impl Simulation {
         for (saved, cloth) in state.cloths.iter().zip(outfit.cloths_mut()) {
             saved.write(queue, cloth)?;
         }
+        if stage == Stage::Running {
+            outfit.know_pins(state.cloths.iter().map(SavedCloth::pins));
+            outfit.set_pins(self.control.pins.iter());
+            outfit.set_place(DVec3::from_array(state.place));
+        }
         if self.keeps_maps && stage == Stage::Running {
             outfit.keep_maps(&self.device, &self.bodies.moving[0], &mut |_, record| {
                 submit(&self.device, queue, record);
@@ -260,6 +269,14 @@ impl SavedCloth {
         let (_, words) = self.buffers.iter().find(|(name, _)| name == "positions")?;
         let position = |p: &[u32]| Vec3::from_array([p[0], p[1], p[2]].map(f32::from_bits));
         Some(words.chunks_exact(4).map(position).collect())
+    }
+
+    /// Its particles that are held, where they are.
+    fn pins(&self) -> Pins {
+        let words = self.buffers.iter().find(|(name, _)| name == "positions").map(|(_, words)| words.as_slice());
+        let particles = (0..).zip(words.unwrap_or_default().chunks_exact(4));
+        let held = particles.filter(|(_, particle)| f32::from_bits(particle[3]) == 0.0);
+        Pins::held(held.map(|(i, p)| (i, Vec3::from_array([p[0], p[1], p[2]].map(f32::from_bits)).as_dvec3())))
     }
 
     /// The box around its particles.

@@ -1,6 +1,6 @@
 //! What a host outside of this workspace meets: packages, a browser's target, and the pages of the library.
 
-use crate::{cargo, cargo_path, command, run, say, target};
+use crate::{cargo, cargo_path, command, say, target};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Stdio;

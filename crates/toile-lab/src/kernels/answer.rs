@@ -143,6 +143,7 @@ pub fn answer(kernel: Kernel, input: &mut Input) {
         }
         Kernel::MergeParticles => frame::merge_particles(&before.open, &before.members, particles),
         Kernel::CarryParticles => frame::carry_particles(particles, &mut input.contacts, before.carry),
+        Kernel::SetPins => frame::set_pins(particles, &before.pins),
         Kernel::StateCopy => input.copies = frame::state_copy(particles),
     }
 }

@@ -7,7 +7,7 @@ use glam::{Vec3, Vec4};
 use std::ops::Range;
 use toile::gpu::BodyMaps;
 use toile::gpu::contents::{Encode, constant, encoded, floats, uniform, with_w, words};
-use toile::model::{Csr, Limit, Model, SeamPair, ShapeStep, StepSettings, Strand};
+use toile::model::{Csr, Limit, Model, PinTarget, SeamPair, ShapeStep, StepSettings, Strand};
 use toile::scene::{Polish, Pose, Skin};
 use toile_kernels::structs;
 use toile_reference::step::PolishState;
@@ -78,6 +78,8 @@ pub struct Input {
     pub rate: f32,
     /// First three rows of the transform of a jump.
     pub carry: [Vec4; 3],
+    /// Particles that the host holds or lets go, each once.
+    pub pins: Vec<PinTarget>,
 }
 
 /// What the kernels of a body write, shape [vertex_count] each.
@@ -164,6 +166,7 @@ impl Inputs for Input {
                 let [row_x, row_y, row_z] = self.carry;
                 uniform(&structs::Carry { row_x, row_y, row_z })
             }
+            "pins" => encoded(&self.pins),
             "bind_positions" => padded(&self.skin.positions, 1.0),
             "bind_normals" => padded(&self.skin.normals, 0.0),
             "morph_offsets" => words(&self.morphs().offsets),

@@ -5,8 +5,8 @@ use crate::{DrawnMaps, Gpu, Random};
 use glam::{DVec3, Mat4, Quat, Vec3, Vec4, dvec3, vec3};
 use toile::gpu::{GpuError, MapSpace, Surface};
 use toile::model::{
-    Attachment, Csr, Hold, Limit, Link, MapBox, Model, NO_CORNER, STRAND_PARTICLES_MAX, SeamPair, ShapeKind, ShapeStep,
-    StepSettings, Strand,
+    Attachment, Csr, Hold, Limit, Link, MapBox, Model, NO_CORNER, PinTarget, STRAND_PARTICLES_MAX, SeamPair, ShapeKind,
+    ShapeStep, StepSettings, Strand,
 };
 use toile::scene::{
     Displacement, Fabric, Friction, Influence, MapKind, Mesh, Morphs, Polish, Pose, Settings, Skin, Wind,
@@ -112,6 +112,7 @@ impl Seeds {
             rate: if variant == Variant::Weightless { 0.0 } else { 120.0 },
             // Of numbers of its own, so that those of all other kernels stay.
             carry: carry(&mut Random::new(!self.seed ^ u64::from(items))),
+            pins: pins(&mut Random::new(!self.seed ^ u64::from(items)), items),
             open,
             members,
             copies: particles.clone(),
@@ -157,6 +158,12 @@ impl Seeds {
         if matches!(kernel, Kernel::SampleLayers | Kernel::SampleMovingLayers) {
             place_at_the_sheets(random, &mut input);
         }
+        if kernel == Kernel::LimitAttachments {
+            // What the host has let go holds nothing, and so would most of them, which are any particles.
+            for attachment in input.model.attachments.values.iter().filter(|attachment| attachment.pin % 2 == 0) {
+                input.particles.inverse_masses[attachment.pin as usize] = 0.0;
+            }
+        }
         if kernel == Kernel::LongestLimit {
             let status = frame::limit_status(&input.particles.positions, &input.model.limits, input.settings.aim());
             input.status.elongation_max = status.elongation_max.to_bits();
@@ -184,6 +191,19 @@ fn carry(random: &mut Random) -> [Vec4; 3] {
     let turn = Quat::from_axis_angle(random.direction(), random.between(0.5, 3.0));
     let matrix = Mat4::from_rotation_translation(turn, random.vector(2.0));
     [0, 1, 2].map(|row| matrix.row(row))
+}
+
+/// Every second particle, held or let go; some have no time for their way.
+fn pins(random: &mut Random, count: u32) -> Vec<PinTarget> {
+    let pin = |index: u32| {
+        let (particle, position, seconds) = (2 * index, random.vector(0.6), f64::from(random.between(0.001, 0.1)));
+        match index % 4 {
+            1 => PinTarget::free(particle),
+            2 => PinTarget::still(particle),
+            _ => PinTarget::held(particle, position, seconds),
+        }
+    };
+    (0..count).map(pin).collect()
 }
 
 /// None to four quads of each particle, whatever their corners.
@@ -251,6 +271,7 @@ fn counts(domain: Domain, items: u32) -> Counts {
             Counts { particles: 2 * items + 4, pairs: items, others: 2, ..none }
         }
         Domain::StrandColour => Counts { particles: 8 * items + STRAND_PARTICLES_MAX, others: 2, ..none },
+        Domain::Pin => Counts { particles: 2 * items, ..none },
         Domain::Workgroup => Counts { partials: items, ..none },
         Domain::Vertex => Counts { particles: 1, ..none },
         Domain::TrianglePart | Domain::Column => panic!("maps are drawn of whole bodies"),

@@ -4,7 +4,7 @@ use super::dressing::DressingStage;
 use super::step::StepSettings;
 use crate::{Merge, Model, ModelError};
 use glam::Vec3;
-use toile_scene::{Cloth, Scene};
+use toile_scene::{Cloth, Scene, Settings};
 
 /// A garment or a sheet, meshed, with the numbers of its steps.
 #[derive(Clone, Debug)]
@@ -49,8 +49,11 @@ impl Piece {
     /// [`ModelError`] when a number is out of its range, a garment cannot be meshed, or a frame would take too many steps.
     pub fn all(scene: &Scene) -> Result<Vec<Self>, ModelError> {
         scene.check()?;
-        let settings = &scene.settings;
-        let piece = |cloth: &Cloth| match cloth {
+        scene.cloths.iter().map(|cloth| Self::new(cloth, &scene.settings)).collect()
+    }
+
+    fn new(cloth: &Cloth, settings: &Settings) -> Result<Self, ModelError> {
+        match cloth {
             Cloth::Sheet(sheet) => {
                 let model = Model::from_sheet(sheet, settings);
                 let step = StepSettings::of_cloth(&sheet.name, settings, &model)?;
@@ -64,8 +67,36 @@ impl Piece {
                 let open = Open { model: open, merge, sewing: open_step.sewing(), step: open_step, sewn: None };
                 Ok(Self { name: garment.name.clone(), open: Some(open), model, step })
             }
-        };
-        scene.cloths.iter().map(piece).collect()
+        }
+    }
+
+    /// Takes the numbers of settings that may change while a cloth runs; see [`StepSettings::with_numbers_of`].
+    pub fn take_numbers(&mut self, settings: &Settings) {
+        let take = |step: &mut StepSettings| *step = step.with_numbers_of(settings);
+        take(&mut self.step);
+        if let Some(open) = &mut self.open {
+            take(&mut open.step);
+            open.sewing = open.step.sewing();
+            open.sewn.iter_mut().for_each(|sewn| take(&mut sewn.step));
+        }
+    }
+
+    /// The same piece of another fabric, as it runs: with the step that it has, worn as it is.
+    ///
+    /// # Errors
+    /// [`ModelError::Steps`] when the fabric asks for a shorter step; [`ModelError`] when the cloth cannot be meshed.
+    pub fn of_other_fabric(&self, cloth: &Cloth, settings: &Settings) -> Result<Self, ModelError> {
+        let mut piece = Self::new(cloth, settings)?;
+        piece.leave_open(self.is_left_open());
+        piece.step = piece.step.at_step_of(&self.name, &self.step)?;
+        if let (Some(open), Some(old)) = (&mut piece.open, &self.open) {
+            open.step = open.step.at_step_of(&self.name, &old.step)?;
+            open.sewing = open.step.sewing();
+            if let (Some(sewn), Some(old)) = (&mut open.sewn, &old.sewn) {
+                sewn.step = sewn.step.at_step_of(&self.name, &old.step)?;
+            }
+        }
+        Ok(piece)
     }
 
     /// Has the garment be worn as its open model, whose seams are still drawn together, or as the sewn one again. Seams that stayed far open

@@ -125,6 +125,31 @@ impl StepSettings {
         Self { dt: (frame / f64::from(steps_per_frame)) as f32, steps_per_frame, ..self.clone() }
     }
 
+    /// The same step with the numbers of settings that may change while a cloth runs: gravity, air, damping, friction and reflection.
+    pub fn with_numbers_of(&self, settings: &Settings) -> Self {
+        Self {
+            gravity: settings.gravity.as_vec3(),
+            wind: settings.wind,
+            damping: settings.fabric.damping as f32,
+            friction: settings.fabric.friction as f32,
+            reflection: settings.reflection as f32,
+            law: settings.friction,
+            ..self.clone()
+        }
+    }
+
+    /// These settings at the step of others, as a cloth that runs keeps it.
+    ///
+    /// # Errors
+    /// [`ModelError::Steps`] when they ask for a shorter one; `name` is that of the cloth.
+    pub(crate) fn at_step_of(&self, name: &str, other: &Self) -> Result<Self, ModelError> {
+        let (steps, most) = (self.steps_per_frame, other.steps_per_frame);
+        if steps > most {
+            return Err(ModelError::Steps { cloth: name.to_owned(), steps, most });
+        }
+        Ok(Self { dt: other.dt, steps_per_frame: most, ..self.clone() })
+    }
+
     /// The part of [`Self::push_speed`] that each of the sweeps has [m/s]; further sweeps have as much each.
     pub fn push_speed_per_sweep(&self) -> f32 {
         self.push_speed / self.sweeps.max(1) as f32

@@ -14,7 +14,9 @@ pub fn limit_attachments(particles: &mut Particles, attachments: &Csr<Attachment
             let way = particles.positions[attachment.pin as usize] - particles.positions[i];
             let span = way - particles.velocities[i] * dt;
             let length = span.length();
-            if length > attachment.max_length {
+            // A pin that the host has let go holds nothing.
+            let is_pinned = !(particles.inverse_masses[attachment.pin as usize] > 0.0);
+            if length > attachment.max_length && is_pinned {
                 particles.velocities[i] += span * ((length - attachment.max_length) / (length * dt));
             }
         }

@@ -1,0 +1,168 @@
+//! A simulation under the hand of its host.
+
+use crate::outfit::Outfit;
+use crate::simulation::{Phase, Simulation};
+use crate::stage::Stage;
+use crate::{Checkpoint, Control, Error};
+use glam::DVec3;
+use toile_model::{DressingStage, StepSettings};
+
+/// Farthest that a body may stand from where its motion has it [m]: beyond, the places of particles are coarser than a thread.
+const FARTHEST: f64 = 1e4;
+
+impl Simulation {
+    /// What changes while it runs, as it is now.
+    pub fn control(&self) -> &Control {
+        &self.control
+    }
+
+    /// Changes what may change while it runs; it holds for what is recorded from now on. Control is no part of a saved state: a host that restores
+    /// one sets it again.
+    ///
+    /// # Errors
+    /// [`Error::Model`] when a number is out of its range, or a stiffness asks for a shorter step than the cloth has. Then nothing is changed.
+    ///
+    /// # Panics
+    /// When something changes that stays: density, thickness, the number of shapes, air or pressure where the scene has none; and when a
+    /// particle that is held does not exist.
+    pub fn set_control(&mut self, encoder: &mut wgpu::CommandEncoder, control: &Control) -> Result<(), Error> {
+        control.check(&self.control, &self.settings)?;
+        for (piece, pins) in self.pieces.iter().zip(&control.pins) {
+            let count = piece.model.particle_count();
+            let last = pins.last_key_value().map_or(0, |(particle, _)| *particle);
+            assert!(pins.is_empty() || last < count, "{} has {count} particles, and no particle {last}", piece.name);
+        }
+        let settings = control.settings(&self.settings);
+        let changes_model = control.changes_model(&self.control.fabric);
+        let changes_shapes = control.shapes != self.control.shapes;
+        if changes_model {
+            let pieces = self.pieces.iter().zip(&self.scene_cloths);
+            let pieces = pieces.map(|(piece, cloth)| piece.of_other_fabric(cloth, &settings));
+            self.pieces = pieces.collect::<Result<_, _>>()?;
+        }
+        self.pieces.iter_mut().for_each(|piece| piece.take_numbers(&settings));
+        self.settings = settings;
+        self.bodies.shapes.clone_from(&control.shapes);
+        self.control = control.clone();
+        self.tell_numbers(encoder, changes_model);
+        if changes_shapes {
+            let shapes = self.bodies.shapes.clone();
+            self.cloths_mut().for_each(|cloth| cloth.set_shapes(shapes.clone()));
+        }
+        if let Phase::Together { outfit, stage: Stage::Running, .. } = &mut self.phase {
+            outfit.set_pins(control.pins.iter());
+        }
+        Ok(())
+    }
+
+    /// Tells the cloths on the device the numbers of their steps, and those of their springs and limits where these have changed.
+    fn tell_numbers(&mut self, encoder: &mut wgpu::CommandEncoder, changes_model: bool) {
+        let (dressing, stage) = match &self.phase {
+            Phase::Dressing(_) => (true, Stage::Sewing),
+            Phase::Together { stage, .. } => (false, *stage),
+        };
+        let stages: Vec<DressingStage> = self.dressing_stages().collect();
+        let device = self.device.clone();
+        // Taken out, so that cloths and models are borrowed side by side.
+        let pieces = std::mem::take(&mut self.pieces);
+        let worn = pieces.iter().filter(|piece| !dressing || piece.open.is_some());
+        let first = pieces.first().map_or(1, |piece| piece.step.steps_per_frame);
+        let step = |piece, of: DressingStage| -> StepSettings {
+            if dressing { toile_model::Piece::settings_of(piece, of) } else { self.step_together(piece, stage, first) }
+        };
+        let told: Vec<_> = worn.zip(stages).map(|(piece, of)| (piece.model_of(of), step(piece, of))).collect();
+        for ((model, step), cloth) in told.iter().zip(self.cloths_mut()) {
+            if changes_model {
+                cloth.record_model(&device, encoder, model);
+            }
+            cloth.record_settings(&device, encoder, step);
+        }
+        self.pieces = pieces;
+    }
+
+    /// Sets the body that moves elsewhere at once, by a way [m], and what it wears along with it: nothing of it is felt as a motion. Shapes and sheets
+    /// stay. A host that only draws everything elsewhere needs none of this.
+    ///
+    /// # Panics
+    /// Before the run, where a body stands still beside, where maps are kept, or when the body would stand more than 10 km from where its motion has it.
+    pub fn teleport(&mut self, encoder: &mut wgpu::CommandEncoder, way: DVec3) {
+        let device = self.device.clone();
+        let outfit = self.running("a body is set elsewhere");
+        assert!(
+            !outfit.is_bound_to_its_place(),
+            "a body beside one that stands still, or whose maps are kept, stays where it is"
+        );
+        let place = outfit.place() + way;
+        assert!(
+            place.abs().max_element() <= FARTHEST,
+            "a body stands at most {FARTHEST} m from where its motion has it"
+        );
+        outfit.set_place(place);
+        outfit.carry_by(&device, encoder, way);
+    }
+
+    /// Takes a garment or sheet off, by its place in [`Simulation::cloths`]: what lay over it falls on what is below. To put one on, begin a new simulation.
+    ///
+    /// # Panics
+    /// Before the run, when there is no such cloth, or when it is the only one.
+    pub fn take_off(&mut self, index: usize) {
+        let count = self.pieces.len();
+        assert!(
+            index < count && count > 1,
+            "there are {count} cloths: one of them stays, and {index} is none to take off"
+        );
+        let outfit = self.running("a cloth is taken off");
+        let before = outfit.part_seconds();
+        outfit.take_off(index);
+        let ratio = (before / outfit.part_seconds()).round() as u64;
+        self.clock = self.clock.in_parts(ratio);
+        self.pieces.remove(index);
+        self.scene_cloths.remove(index);
+        self.control.pins.remove(index);
+    }
+
+    /// Records a copy of the state on the device, to which [`Simulation::reset`] goes back.
+    ///
+    /// # Panics
+    /// Before the run.
+    pub fn checkpoint(&mut self, encoder: &mut wgpu::CommandEncoder) -> Checkpoint {
+        let (device, clock, control) = (self.device.clone(), self.clock, self.control.clone());
+        let outfit = self.running("a checkpoint is made");
+        Checkpoint {
+            marks: outfit.cloths().map(|cloth| cloth.record_mark(&device, encoder)).collect(),
+            clock,
+            done: outfit.done(),
+            place: outfit.place(),
+            teleport_count: outfit.teleports().len(),
+            control,
+            pins: outfit.pins().cloned().collect(),
+        }
+    }
+
+    /// Goes back to a checkpoint of this simulation, control and body included.
+    ///
+    /// # Errors
+    /// As [`Simulation::set_control`].
+    ///
+    /// # Panics
+    /// Before the run, and when a cloth was taken off since.
+    pub fn reset(&mut self, encoder: &mut wgpu::CommandEncoder, checkpoint: &Checkpoint) -> Result<(), Error> {
+        let outfit = self.running("it goes back to a checkpoint");
+        assert_eq!(checkpoint.marks.len(), outfit.cloths().len(), "a cloth that was taken off does not come back");
+        outfit.set_place(checkpoint.place);
+        outfit.go_back(checkpoint.done, checkpoint.teleport_count);
+        outfit.know_pins(checkpoint.pins.iter().cloned());
+        for (cloth, mark) in outfit.cloths_mut().zip(&checkpoint.marks) {
+            cloth.record_reset(encoder, mark);
+        }
+        self.clock = checkpoint.clock;
+        self.set_control(encoder, &checkpoint.control)
+    }
+
+    fn running(&mut self, what: &str) -> &mut Outfit {
+        match &mut self.phase {
+            Phase::Together { outfit, stage: Stage::Running, .. } => outfit,
+            _ => panic!("{what} once the run has begun"),
+        }
+    }
+}

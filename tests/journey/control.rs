@@ -1,0 +1,180 @@
+//! A simulation under the hand of its host.
+
+use crate::support::{advance, gpu, positions, rolling, start, walking};
+use glam::{DVec3, Vec3, dvec3};
+use std::collections::BTreeMap;
+use toile::{Control, Error, Simulation, Stage};
+use toile_scene::{Body, RigidKey, RigidMotion, Shape, ShapeMotion, Wind};
+
+const FRAME: f64 = 1.0 / 60.0;
+
+fn control(simulation: &mut Simulation, change: impl Fn(&mut Control)) -> Result<(), Error> {
+    let mut control = simulation.control().clone();
+    change(&mut control);
+    let mut done = Ok(());
+    gpu().run(|encoder| done = simulation.set_control(encoder, &control));
+    done
+}
+
+fn advance_for(simulation: &mut Simulation, frames: u32) {
+    for _ in 0..frames {
+        advance(simulation, FRAME);
+    }
+    simulation.stage().expect("it is finite");
+}
+
+/// Positions of a cloth [m].
+fn places(simulation: &Simulation, cloth: usize) -> Vec<Vec3> {
+    let worn = simulation.cloths().nth(cloth).expect("it is there");
+    gpu().vec3s(&worn.cloth.frame().positions)
+}
+
+fn mean(places: &[Vec3]) -> Vec3 {
+    places.iter().sum::<Vec3>() / places.len() as f32
+}
+
+#[test]
+fn a_host_holds_particles_and_turns_gravity_and_wind() {
+    let mut scene = rolling(2);
+    scene.settings.wind = Some(Wind::new(DVec3::ZERO));
+    let mut simulation = start(&scene);
+    advance_for(&mut simulation, 3);
+    // Uneven calls: what is held is there at the end of each of them.
+    let corner = places(&simulation, 1)[0].as_dvec3();
+    for (part, seconds) in [(1.0, FRAME), (2.0, 2.7 * FRAME), (3.0, 1.3 * FRAME)] {
+        let target = corner + part * dvec3(0.01, 0.03, -0.01);
+        control(&mut simulation, |control| control.pins[1] = BTreeMap::from([(0, target)])).expect("it is in range");
+        advance(&mut simulation, seconds);
+        let there = places(&simulation, 1)[0].as_dvec3();
+        assert!(there.distance(target) < 1e-5, "it is at {there} and should be at {target}");
+    }
+    let there = places(&simulation, 1)[0];
+    advance_for(&mut simulation, 10);
+    assert_eq!(places(&simulation, 1)[0], there, "what is held stands still");
+    control(&mut simulation, |control| {
+        control.pins[1].clear();
+        control.gravity = DVec3::ZERO;
+        control.wind = Some(Wind::new(dvec3(-6.0, 0.0, 0.0)));
+    })
+    .expect("it is in range");
+    let before = mean(&places(&simulation, 1));
+    advance_for(&mut simulation, 15);
+    let way = mean(&places(&simulation, 1)) - before;
+    assert!(way.x < -0.1 && places(&simulation, 1)[0] != there, "it goes with the wind: {way}");
+}
+
+#[test]
+fn what_no_cloth_has_is_an_error_and_changes_nothing() {
+    let mut scene = rolling(1);
+    scene.settings.velocity_modification = toile_scene::VelocityModification::new(toile_scene::Rule::None);
+    let mut simulation = start(&scene);
+    advance_for(&mut simulation, 2);
+    let before = simulation.control().clone();
+    let said = control(&mut simulation, |control| control.fabric.friction = -1.0).expect_err("no fabric has it");
+    assert_eq!(said.to_string(), "fabric.friction is -1 and must be 0 to 10");
+    let said = control(&mut simulation, |control| control.pins[0] = BTreeMap::from([(3, DVec3::NAN)]));
+    assert!(said.expect_err("it is nowhere").to_string().starts_with("pin is NaN"));
+    // A rule that leaves the tension to the springs needs shorter steps for stiffer ones.
+    let stiff = control(&mut simulation, |control| control.fabric.structural_stiffness *= 9.0);
+    let said = stiff.expect_err("the step is too long").to_string();
+    assert!(said.starts_with("sheet 0: a frame would take"), "{said}");
+    assert_eq!(*simulation.control(), before);
+    let soft = control(&mut simulation, |control| control.fabric.structural_stiffness *= 0.5);
+    soft.expect("softer springs carry the step");
+    advance_for(&mut simulation, 5);
+    // The scene itself is held to the same ranges.
+    scene.settings.fabric.thickness = 1.0;
+    let error = Simulation::new(&gpu().device, &scene).expect_err("no cloth is so thick");
+    assert_eq!(error.to_string(), "fabric.thickness is 1 and must be 0 to 0.05 m");
+}
+
+#[test]
+fn shapes_follow_the_host_and_a_reset_undoes_all_of_it() {
+    let mut scene = rolling(2);
+    scene.bodies.push(Body::Shape(Shape::sphere(dvec3(0.0, 0.0, 3.0), 0.15)));
+    let mut simulation = start(&scene);
+    advance_for(&mut simulation, 10);
+    let mut checkpoint = None;
+    gpu().run(|encoder| checkpoint = Some(simulation.checkpoint(encoder)));
+    let checkpoint = checkpoint.expect("it was just made");
+    let (time, at_the_checkpoint) = (simulation.time(), positions(&simulation));
+    let mut ends = Vec::new();
+    for _ in 0..2 {
+        // A sphere comes from aside and pushes the cloth.
+        let key = |time, z| RigidKey { time, translation: dvec3(0.0, 0.0, z), rotation: Default::default() };
+        let keys = vec![key(time, -2.2), key(time + 0.3, -2.9)];
+        let motion = ShapeMotion::Keys(RigidMotion { keys });
+        control(&mut simulation, |control| {
+            control.shapes[0].motion = motion.clone();
+            control.pins[0].insert(5, DVec3::Y);
+        })
+        .expect("it is in range");
+        advance_for(&mut simulation, 20);
+        ends.push(positions(&simulation));
+        gpu().run(|encoder| simulation.reset(encoder, &checkpoint).expect("it was in range"));
+        assert_eq!(positions(&simulation), at_the_checkpoint);
+        assert_eq!(simulation.time(), time);
+        assert!(simulation.control().pins[0].is_empty());
+    }
+    assert_eq!(ends[0], ends[1], "bit for bit");
+    advance_for(&mut simulation, 20);
+    assert_ne!(positions(&simulation), ends[0], "neither sphere nor pin is there now");
+}
+
+#[test]
+fn a_cloth_that_is_taken_off_leaves_its_place_to_the_others() {
+    let mut simulation = start(&rolling(2));
+    advance_for(&mut simulation, 20);
+    let (time, upper) = (simulation.time(), places(&simulation, 1));
+    simulation.take_off(0);
+    assert_eq!(simulation.cloths().map(|worn| worn.name).collect::<Vec<_>>(), ["sheet 1"]);
+    assert_eq!(places(&simulation, 0), upper);
+    assert!((simulation.time() - time).abs() < 1e-9, "time goes on: {} and {time}", simulation.time());
+    let advance = advance(&mut simulation, FRAME);
+    assert!(advance.step_count > 0 && (simulation.time() - time - FRAME).abs() < 2e-3);
+    advance_for(&mut simulation, 6);
+    // It lies on the ball, whose centre rolls along x at 1 m/s and up at 0.1 m/s.
+    let ball = Vec3::new(simulation.time() as f32, 0.1 * simulation.time() as f32, 0.0);
+    let nearest = places(&simulation, 0).iter().map(|p| p.distance(ball)).fold(f32::MAX, f32::min);
+    assert!((0.249..0.27).contains(&nearest), "its nearest particle is {nearest} m from the centre");
+}
+
+#[test]
+#[should_panic(expected = "a cloth is taken off once the run has begun")]
+fn nothing_is_taken_off_while_it_is_dressed() {
+    start(&walking(&["skirt", "shirt_sleeveless"], "walk_loop")).take_off(0);
+}
+
+/// A woman in a skirt is set elsewhere by whole texels: she goes on as if she had always been there.
+#[test]
+fn who_is_set_elsewhere_walks_on_in_the_same_skirt() {
+    let scene = walking(&["skirt"], "walk_loop");
+    let mut here = start(&scene);
+    while here.stage().expect("she can be dressed") != Stage::Running {
+        advance(&mut here, FRAME);
+    }
+    advance_for(&mut here, 3);
+    let state = here.save(&gpu().queue).expect("a device");
+    let mut there = start(&scene);
+    there.restore(&gpu().queue, &state).expect("the same skirt");
+    let way = dvec3(10.0, 0.0, -4.0);
+    gpu().run(|encoder| there.teleport(encoder, way));
+    for _ in 0..20 {
+        advance(&mut here, FRAME);
+        advance(&mut there, FRAME);
+        let (here, there) = (places(&here, 0), places(&there, 0));
+        let apart = || here.iter().zip(&there).map(|(a, b)| (*b - *a - way.as_vec3()).length());
+        let (mean, farthest) = (apart().sum::<f32>() / here.len() as f32, apart().fold(0.0, f32::max));
+        // Ten metres from the origin a place is told to a micrometre, and cloth that moves spreads that.
+        assert!(mean < 1e-3 && farthest < 1e-2, "{mean} m, at most {farthest} m from where it should be");
+    }
+    there.stage().expect("it is finite");
+    assert_eq!(there.place(), way);
+    // Where she stands is part of a saved state.
+    let state = there.save(&gpu().queue).expect("a device");
+    let mut again = start(&scene);
+    again.restore(&gpu().queue, &state).expect("the same skirt");
+    advance(&mut there, FRAME);
+    advance(&mut again, FRAME);
+    assert_eq!(positions(&again), positions(&there));
+}
