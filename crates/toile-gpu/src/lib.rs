@@ -6,6 +6,7 @@
 mod buffers;
 pub mod contents;
 mod error;
+mod kernels;
 mod limits;
 mod maps;
 mod mark;
@@ -22,6 +23,7 @@ mod timing;
 mod trail;
 
 pub use error::GpuError;
+pub use kernels::Kernels;
 pub use maps::{BodyMaps, MapSpace, MapsFault, Surface};
 pub use mark::Mark;
 pub use moving_body::MovingBody;

@@ -4,11 +4,12 @@ mod layer_maps;
 mod side_maps;
 mod surface;
 
+pub(crate) use side_maps::SidePipeline;
 pub use surface::Surface;
 pub(crate) use surface::padded;
 
-use crate::GpuError;
 use crate::limits::check_limits;
+use crate::{GpuError, Kernels};
 use layer_maps::LayerMaps;
 use side_maps::SideMaps;
 use thiserror::Error;
@@ -78,16 +79,17 @@ enum Kind {
 }
 
 impl BodyMaps {
-    /// Empty maps.
+    /// Empty maps; `kernels` is a device, or the pipelines that others on it use.
     ///
     /// # Errors
     /// [`GpuError::MapTooLarge`] and [`GpuError::BufferTooLarge`] when they do not fit the device, [`GpuError::LimitTooLow`] when the device has
     /// less than their passes need.
-    pub fn new(device: &wgpu::Device, space: &MapSpace) -> Result<Self, GpuError> {
-        check_limits(device)?;
+    pub fn new(kernels: impl Into<Kernels>, space: &MapSpace) -> Result<Self, GpuError> {
+        let kernels = kernels.into();
+        check_limits(kernels.device())?;
         let kind = match space.kind {
-            MapKind::Sides => Kind::Sides(Box::new(SideMaps::new(device, space.map_box, space.moving)?)),
-            MapKind::Layers => Kind::Layers(Box::new(LayerMaps::new(device, space)?)),
+            MapKind::Sides => Kind::Sides(Box::new(SideMaps::new(&kernels, space.map_box, space.moving)?)),
+            MapKind::Layers => Kind::Layers(Box::new(LayerMaps::new(&kernels, space)?)),
         };
         Ok(Self { space: space.clone(), kind })
     }
@@ -100,18 +102,6 @@ impl BodyMaps {
     pub fn of_sources(device: &wgpu::Device, space: &MapSpace, sources: [&str; 2]) -> Result<Self, GpuError> {
         let maps = LayerMaps::of_sources(device, space, sources)?;
         Ok(Self { space: space.clone(), kind: Kind::Layers(Box::new(maps)) })
-    }
-
-    /// Empty maps of the same size and kind, which share the pipelines of these.
-    ///
-    /// # Errors
-    /// As [`BodyMaps::new`].
-    pub fn new_alike(&self, device: &wgpu::Device) -> Result<Self, GpuError> {
-        let kind = match &self.kind {
-            Kind::Sides(maps) => Kind::Sides(Box::new(maps.new_alike(device))),
-            Kind::Layers(maps) => Kind::Layers(Box::new(maps.new_alike(device)?)),
-        };
-        Ok(Self { space: self.space.clone(), kind })
     }
 
     /// Records the drawing of all surfaces into a box. The papers' maps move each out along its normals by the thickness beside it [m]; where points

@@ -4,7 +4,7 @@ use crate::contents::encoded;
 use crate::limits::check_limits;
 use crate::maps::padded;
 use crate::trail::{dispatch, sized, vertices_uniform};
-use crate::{GpuError, Program, Surface, Trail};
+use crate::{GpuError, Kernels, Program, Surface, Trail};
 use glam::{DVec3, Vec3, Vec4};
 use toile_kernels::Kernel;
 use toile_scene::{Lead, MeshSequence, Motion, MovingMesh, Pose, Rig, Skin};
@@ -54,7 +54,9 @@ impl MovingBody {
     ///
     /// # Errors
     /// [`GpuError::BufferTooLarge`] when it does not fit the device, [`GpuError::LimitTooLow`] when the kernels do not.
-    pub fn new(device: &wgpu::Device, body: &MovingMesh, texel: f32) -> Result<Self, GpuError> {
+    pub fn new(kernels: impl Into<Kernels>, body: &MovingMesh, texel: f32) -> Result<Self, GpuError> {
+        let kernels = &kernels.into();
+        let device = kernels.device();
         check_limits(device)?;
         let available = device.limits().max_storage_buffer_binding_size;
         let vertex_count = body.mesh.positions.len() as u32;
@@ -68,7 +70,7 @@ impl MovingBody {
             | wgpu::BufferUsages::COPY_DST;
         let positions = upload_vec3s(device, "body_positions", &body.mesh.positions, usage);
         let normals = upload_vec3s(device, "body_normals", &body.mesh.normals, usage);
-        let trail = Trail::new(device, &positions, vertex_count);
+        let trail = Trail::new(kernels, &positions, vertex_count);
         let surface = Surface {
             velocities: Some(trail.velocities().clone()),
             indices: Surface::indices(device, &body.mesh),
@@ -81,7 +83,7 @@ impl MovingBody {
         let mut bytes = 2 * size + trail.bytes() + surface.indices.size();
         let poser = match &body.motion {
             Motion::Skinned { skin, rig } => {
-                let (joints, joint_bytes) = Joints::new(device, skin, rig, &surface, available)?;
+                let (joints, joint_bytes) = Joints::new(kernels, skin, rig, &surface, available)?;
                 bytes += joint_bytes;
                 Poser::Joints(Box::new(joints))
             }
@@ -133,12 +135,13 @@ impl MovingBody {
 
 impl Joints {
     fn new(
-        device: &wgpu::Device,
+        kernels: &Kernels,
         skin: &Skin,
         rig: &Rig,
         surface: &Surface,
         available: u64,
     ) -> Result<(Self, u64), GpuError> {
+        let device = kernels.device();
         let vertex_count = skin.positions.len() as u32;
         let size = 16 * u64::from(vertex_count);
         let storage = wgpu::BufferUsages::STORAGE;
@@ -167,7 +170,7 @@ impl Joints {
                 let weights = upload("morph_weights", bytemuck::cast_slice(&pose.morph_weights))?;
                 let zeros = vec![0; size as usize];
                 morphed = [upload("morphed_positions", &zeros)?, upload("morphed_normals", &zeros)?];
-                let program = Program::new(device, Kernel::MorphBody);
+                let program = kernels.program(Kernel::MorphBody);
                 let group = program.bind(device, |binding| match binding.name.as_str() {
                     "vertices" => vertices.as_entire_binding(),
                     "bind_positions" => bind_positions.as_entire_binding(),
@@ -182,7 +185,7 @@ impl Joints {
                 Some(Morph { weights, program, group })
             }
         };
-        let program = Program::new(device, Kernel::SkinBody);
+        let program = kernels.program(Kernel::SkinBody);
         let group = program.bind(device, |binding| match binding.name.as_str() {
             "vertices" => vertices.as_entire_binding(),
             "morphed_positions" => morphed[0].as_entire_binding(),

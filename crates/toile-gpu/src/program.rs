@@ -1,11 +1,12 @@
 //! A kernel on a device: its pipeline, and resources bound to it by name.
 
+use std::sync::Arc;
 use toile_kernels::{Binding, Interface, Kernel, Resource, Role, buffer_row};
 
 /// A kernel on a device. Everything it binds comes from the WGSL, by global name.
 #[derive(Clone, Debug)]
 pub struct Program {
-    interface: Interface,
+    interface: Arc<Interface>,
     layout: wgpu::BindGroupLayout,
     pipeline: wgpu::ComputePipeline,
 }
@@ -13,13 +14,29 @@ pub struct Program {
 impl Program {
     /// Compiles a kernel.
     pub fn new(device: &wgpu::Device, kernel: Kernel) -> Self {
-        Self::of_source(device, kernel, &kernel.source(), constants(kernel, device.adapter_info().device_type))
+        Self::cached(device, kernel, None)
+    }
+
+    /// Compiles a kernel, or takes it from a cache.
+    pub(crate) fn cached(device: &wgpu::Device, kernel: Kernel, cache: Option<&wgpu::PipelineCache>) -> Self {
+        let constants = constants(kernel, device.adapter_info().device_type);
+        Self::make(device, kernel, &kernel.source(), constants, cache)
     }
 
     /// Compiles any WGSL with the interface of a kernel: its own, or one that is changed to see a test fail. WGSL that is not valid is an error
     /// of the device's error scope. `constants` are those that it has otherwise than it says.
     pub fn of_source(device: &wgpu::Device, kernel: Kernel, source: &str, constants: &[(&str, f64)]) -> Self {
-        let interface = Interface::of(kernel);
+        Self::make(device, kernel, source, constants, None)
+    }
+
+    fn make(
+        device: &wgpu::Device,
+        kernel: Kernel,
+        source: &str,
+        constants: &[(&str, f64)],
+        cache: Option<&wgpu::PipelineCache>,
+    ) -> Self {
+        let interface = Arc::new(Interface::of(kernel));
         let label = Some(kernel.name());
         let entries: Vec<_> = interface.bindings.iter().map(layout_entry).collect();
         // Not the layout that wgpu infers: it leaves out what changed WGSL names but does not use.
@@ -43,7 +60,7 @@ impl Program {
                 zero_initialize_workgroup_memory: false,
                 constants,
             },
-            cache: None,
+            cache,
         });
         Self { interface, layout, pipeline }
     }

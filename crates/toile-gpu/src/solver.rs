@@ -6,7 +6,7 @@ use crate::limits::check_limits;
 use crate::status::StatusReader;
 use crate::step_params::{Counts, step_params};
 use crate::timing::{PassTime, Timer};
-use crate::{BodyMaps, GpuError, Maps, Pass, Plan, Program};
+use crate::{BodyMaps, GpuError, Kernels, Maps, Pass, Plan, Program};
 use glam::{DMat4, Vec3};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -44,10 +44,7 @@ pub struct Solver {
     after_maps: bool,
     status: StatusReader,
     step: u64,
-    /// Made with the first jump: most cloths see none.
-    carrier: Option<Program>,
-    /// Made with the first particle that a host holds.
-    pinner: Option<Program>,
+    kernels: Kernels,
 }
 
 /// Where a step stands, for the uniforms that change with it.
@@ -96,7 +93,8 @@ enum Work {
 }
 
 impl Solver {
-    /// Builds the pipelines and buffers that the model needs, and nothing else.
+    /// Builds the buffers that the model needs, and those pipelines that nobody has made before; `kernels` is a device, or the pipelines that
+    /// others on it use.
     ///
     /// # Errors
     /// [`GpuError::BufferTooLarge`] when the model does not fit the device, [`GpuError::LimitTooLow`] when the kernels do not.
@@ -104,44 +102,17 @@ impl Solver {
     /// # Panics
     /// As [`Plan::new`].
     pub fn new(
-        device: &wgpu::Device,
+        kernels: impl Into<Kernels>,
         model: &Model,
         settings: &StepSettings,
         colliders: Colliders<'_>,
     ) -> Result<Self, GpuError> {
-        Self::with_programs(device, model, settings, colliders, |kernel| Program::new(device, kernel))
-    }
-
-    /// A solver of another model, which shares the pipelines of this one: none is compiled that this one has.
-    ///
-    /// # Errors
-    /// As [`Solver::new`].
-    pub fn new_alike(
-        &self,
-        device: &wgpu::Device,
-        model: &Model,
-        settings: &StepSettings,
-        colliders: Colliders<'_>,
-    ) -> Result<Self, GpuError> {
-        Self::with_programs(device, model, settings, colliders, |kernel| {
-            match self.bound.iter().find(|known| known.kernel == kernel) {
-                Some(known) => known.program.clone(),
-                None => Program::new(device, kernel),
-            }
-        })
-    }
-
-    fn with_programs(
-        device: &wgpu::Device,
-        model: &Model,
-        settings: &StepSettings,
-        colliders: Colliders<'_>,
-        program: impl Fn(Kernel) -> Program,
-    ) -> Result<Self, GpuError> {
+        let kernels = kernels.into();
+        let device = kernels.device();
         check_limits(device)?;
         let maps = colliders.maps.map_or(Maps::None, |maps| Maps::of(maps.space().kind, maps.is_moving()));
         let plan = Plan::new(model, settings, maps, !colliders.shapes.is_empty());
-        let programs: Vec<_> = plan.kernels().into_iter().map(|kernel| (kernel, program(kernel))).collect();
+        let programs: Vec<_> = plan.kernels().into_iter().map(|kernel| (kernel, kernels.program(kernel))).collect();
         let bindings = programs.iter().flat_map(|(_, program)| &program.interface().bindings);
         let start =
             Start { model, settings, plan: &plan, shapes: &colliders.shapes, after_maps: colliders.maps.is_some() };
@@ -167,9 +138,8 @@ impl Solver {
             after_maps: colliders.maps.is_some(),
             status: StatusReader::new(device),
             step: 0,
-            carrier: None,
-            pinner: None,
             buffers,
+            kernels,
         })
     }
 
@@ -265,7 +235,7 @@ impl Solver {
 
     /// Time of a copy of the whole state [ms].
     fn time_state_copy(&self, device: &wgpu::Device, queue: &wgpu::Queue, timer: &Timer) -> Result<f64, GpuError> {
-        let program = Program::new(device, Kernel::StateCopy);
+        let program = self.kernels.program(Kernel::StateCopy);
         let copies = ["position_copies", "velocity_copies"].map(|label| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(label),
@@ -303,7 +273,7 @@ impl Solver {
         open: &Solver,
         merge: &Merge,
     ) {
-        let program = Program::new(device, Kernel::MergeParticles);
+        let program = self.kernels.program(Kernel::MergeParticles);
         let words = |label, values: &[u32]| {
             device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
                 label: Some(label),
@@ -334,7 +304,7 @@ impl Solver {
 
     /// Records that the cloth is carried by a rigid transform, with its velocities and what it touched, as if it had always been there.
     pub fn record_carry(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, carry: DMat4) {
-        let program = self.carrier.get_or_insert_with(|| Program::new(device, Kernel::CarryParticles));
+        let program = self.kernels.program(Kernel::CarryParticles);
         let [row_x, row_y, row_z] = [0, 1, 2].map(|row| carry.row(row).as_vec4());
         let carry = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("carry"),
@@ -454,7 +424,7 @@ impl Solver {
         if let Some(pin) = pins.iter().find(|pin| pin.particle >= count) {
             panic!("particle {} does not exist: the cloth has {count}", pin.particle);
         }
-        let program = self.pinner.get_or_insert_with(|| Program::new(device, Kernel::SetPins));
+        let program = self.kernels.program(Kernel::SetPins);
         let targets = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("pins"),
             contents: &encoded(pins),
@@ -511,6 +481,11 @@ impl Solver {
     /// The passes of a step and of a frame.
     pub fn plan(&self) -> &Plan {
         &self.plan
+    }
+
+    /// The pipelines that it uses.
+    pub fn kernels(&self) -> &Kernels {
+        &self.kernels
     }
 
     /// The numbers of a step.

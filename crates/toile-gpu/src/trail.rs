@@ -1,7 +1,7 @@
 //! How fast a surface on the device moves: from where its vertices were and where they are. W §4.3.
 
 use crate::contents::uniform;
-use crate::{Pass, Program};
+use crate::{Kernels, Pass, Program};
 use toile_kernels::{Kernel, structs};
 use wgpu::util::DeviceExt;
 
@@ -26,7 +26,9 @@ struct Pace {
 
 impl Trail {
     /// The trail of `vertex_count` positions, vec4 each, in a buffer of usage `STORAGE | COPY_SRC`. All velocities are zero.
-    pub fn new(device: &wgpu::Device, positions: &wgpu::Buffer, vertex_count: u32) -> Self {
+    pub fn new(kernels: impl Into<Kernels>, positions: &wgpu::Buffer, vertex_count: u32) -> Self {
+        let kernels = kernels.into();
+        let device = kernels.device();
         let size = 16 * u64::from(vertex_count);
         let buffer = |label, usage| {
             device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
@@ -34,7 +36,7 @@ impl Trail {
         use wgpu::BufferUsages as Usage;
         let last_positions = buffer("last_positions", Usage::STORAGE | Usage::COPY_DST);
         let velocities = buffer("surface_velocities", Usage::STORAGE | Usage::VERTEX | Usage::COPY_SRC);
-        let program = Program::new(device, Kernel::VertexVelocities);
+        let program = kernels.program(Kernel::VertexVelocities);
         let last = Pace::new(device, &program, [positions, &last_positions, &velocities], vertex_count, 0.0);
         Self { positions: positions.clone(), last_positions, velocities, vertex_count, program, last }
     }

@@ -4,7 +4,7 @@ use crate::{Error, Frame, Strain};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
-use toile_gpu::{BodyMaps, Kernel, Mark, PassTime, Plan, Solver, Timer};
+use toile_gpu::{BodyMaps, Kernel, Kernels, Mark, PassTime, Plan, Solver, Timer};
 use toile_model::{Merge, Model, PinTarget, Status, StepSettings};
 use toile_scene::Shape;
 use wgpu::util::DeviceExt;
@@ -52,7 +52,7 @@ pub struct Cloth {
 }
 
 impl Cloth {
-    /// A cloth at the start of its model.
+    /// A cloth at the start of its model; `kernels` is a device, or the pipelines that other cloths on it use.
     ///
     /// # Errors
     /// [`Error::Gpu`] when the model does not fit the device, or the device has less than the default limits of WebGPU.
@@ -61,25 +61,14 @@ impl Cloth {
     /// When the settings have the rule [`Rule::Hierarchical`](toile_scene::Rule::Hierarchical) and the model was made for another one, or a polish
     /// under a rule that knows none.
     pub fn new(
-        device: &wgpu::Device,
+        kernels: impl Into<Kernels>,
         model: &Model,
         settings: &StepSettings,
         colliders: Colliders,
     ) -> Result<Self, Error> {
-        let solver = Solver::new(device, model, settings, colliders.borrowed())?;
-        Ok(Self::with_solver(device, model, solver, colliders))
-    }
-
-    /// A cloth at the start of its model, with the pipelines of this one.
-    pub(crate) fn new_alike(
-        &self,
-        device: &wgpu::Device,
-        model: &Model,
-        settings: &StepSettings,
-        colliders: Colliders,
-    ) -> Result<Self, Error> {
-        let solver = self.solver.new_alike(device, model, settings, colliders.borrowed())?;
-        Ok(Self::with_solver(device, model, solver, colliders))
+        let kernels = kernels.into();
+        let solver = Solver::new(&kernels, model, settings, colliders.borrowed())?;
+        Ok(Self::with_solver(kernels.device(), model, solver, colliders))
     }
 
     fn with_solver(device: &wgpu::Device, model: &Model, solver: Solver, colliders: Colliders) -> Self {
@@ -117,7 +106,7 @@ impl Cloth {
         merge: &Merge,
         settings: &StepSettings,
     ) -> Result<Self, Error> {
-        let mut sewn = self.new_alike(device, model, settings, self.colliders.clone())?;
+        let mut sewn = Self::new(self.solver.kernels(), model, settings, self.colliders.clone())?;
         sewn.solver.record_merge(device, encoder, &self.solver, merge);
         sewn.solver.record_outputs(encoder);
         Ok(sewn)

@@ -3,7 +3,7 @@
 use crate::{Cloth, Colliders, Error};
 use glam::{Vec3, Vec4};
 use std::collections::VecDeque;
-use toile_gpu::Arrival;
+use toile_gpu::{Arrival, Kernels};
 use toile_model::{Dressing, DressingStage, Merge, Motion, Piece, Status};
 
 /// Most frames whose positions are under way at once; a frame that finds so many is not looked at.
@@ -25,21 +25,13 @@ pub(crate) struct Fitting {
 }
 
 impl Fitting {
-    /// A garment whose panels stand where they were placed. Pipelines are those of `alike`, as far as it has them.
+    /// A garment whose panels stand where they were placed.
     ///
     /// # Errors
     /// [`Error::Gpu`] when the garment does not fit the device.
-    pub(crate) fn new(
-        device: &wgpu::Device,
-        piece: &Piece,
-        colliders: Colliders,
-        alike: Option<&Cloth>,
-    ) -> Result<Self, Error> {
+    pub(crate) fn new(kernels: &Kernels, piece: &Piece, colliders: Colliders) -> Result<Self, Error> {
         let open = piece.open.as_ref().expect("a garment is open before it is sewn");
-        let cloth = match alike {
-            None => Cloth::new(device, &open.model, &open.sewing, colliders)?,
-            Some(known) => known.new_alike(device, &open.model, &open.sewing, colliders)?,
-        };
+        let cloth = Cloth::new(kernels, &open.model, &open.sewing, colliders)?;
         let dressing = Dressing::new(&open.model, &open.sewing);
         Ok(Self::go_on(cloth, dressing, None, DressingStage::Sewing, Motion::default()))
     }

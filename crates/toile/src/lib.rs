@@ -47,3 +47,8 @@ pub use toile_scene as scene;
 #[cfg(doctest)]
 #[doc = include_str!("../../../README.md")]
 struct Readme;
+
+/// Compiles the example of the page for hosts.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/hosting.md")]
+struct Hosting;

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
-use toile_gpu::{BodyMaps, MapsFault, MovingBody, Surface, Trail};
+use toile_gpu::{BodyMaps, Kernels, MapsFault, MovingBody, Surface, Trail};
 use toile_model::{MapBox, Model, StepSettings};
 use toile_scene::{Lead, Mesh, MovingMesh, Shape};
 
@@ -122,24 +122,23 @@ pub(crate) fn maps_per_frame(steps: u32, frame_rate: f64) -> u32 {
 }
 
 impl Outfit {
-    /// Cloths at the start of their models, from the inside out, and the bodies before their first pose. Pipelines are those of
-    /// `alike`, as far as it has them.
+    /// Cloths at the start of their models, from the inside out, and the bodies before their first pose.
     ///
     /// # Errors
     /// [`Error::Gpu`] when bodies, maps or a cloth do not fit the device.
     pub(crate) fn new(
-        device: &wgpu::Device,
+        kernels: &Kernels,
         bodies: &Bodies,
         cloths: &[Laid<'_>],
         map_plan: MapPlan,
         frame_rate: f64,
-        alike: Option<&Cloth>,
     ) -> Result<Self, Error> {
+        let device = kernels.device();
         let thickness = cloths.iter().map(|cloth| cloth.step.thickness).fold(0.0, f32::max);
         let maps_per_frame = cloths.first().map_or(1, |cloth| maps_per_frame(cloth.step.steps_per_frame, frame_rate));
         let space = map_plan.space();
         let texel = space.as_ref().map_or(1.0, |space| space.map_box.texel);
-        let moving = bodies.moving.iter().map(|body| MovingBody::new(device, body, texel));
+        let moving = bodies.moving.iter().map(|body| MovingBody::new(kernels, body, texel));
         let moving = moving.collect::<Result<Vec<_>, _>>()?;
         let at_rest = |mesh| match map_plan.boxes {
             Some(_) => Surface::at_rest(device, mesh, texel),
@@ -152,21 +151,12 @@ impl Outfit {
         for Laid { model, step, is_worn, pins } in cloths {
             // Where there is no body to see, the innermost cloth sees nothing.
             let space = space.as_ref().filter(|_| has_meshes || !layers.is_empty());
-            let drawn = layers.iter().find_map(|layer| layer.maps.as_ref());
-            let maps = match (space, drawn) {
-                (None, _) => None,
-                (Some(_), Some(drawn)) => Some(drawn.new_alike(device)?),
-                (Some(space), None) => Some(BodyMaps::new(device, space)?),
-            };
-            let maps = maps.map(Arc::new);
+            let maps = space.map(|space| BodyMaps::new(kernels, space)).transpose()?.map(Arc::new);
             let colliders = Colliders { maps: maps.clone(), shapes: bodies.shapes.clone() };
-            let cloth = match layers.last().map(|inner| &inner.cloth).or(alike) {
-                None => Cloth::new(device, model, step, colliders)?,
-                Some(known) => known.new_alike(device, model, step, colliders)?,
-            };
+            let cloth = Cloth::new(kernels, model, step, colliders)?;
             let drawn = cloth.frame();
             let seen = (layers.len() < outermost).then(|| {
-                let trail = Trail::new(device, &drawn.positions, drawn.particle_count);
+                let trail = Trail::new(kernels, &drawn.positions, drawn.particle_count);
                 let surface = Surface { velocities: Some(trail.velocities().clone()), ..drawn.surface(device) };
                 Seen { surface, trail }
             });
@@ -200,16 +190,17 @@ impl Outfit {
     /// When [`Outfit::maps_of_round`] is none.
     pub(crate) fn keep_maps(
         &mut self,
-        device: &wgpu::Device,
+        kernels: &Kernels,
         body: &MovingMesh,
         recorder: &mut Recorder<'_>,
     ) -> Result<(), Error> {
+        let device = kernels.device();
         let interval = self.interval_seconds();
         let count = maps_of_round(body, interval).expect("a closed motion of a whole number of intervals");
         let (Some(boxes), Some(first)) = (&self.boxes, self.layers.first().and_then(|layer| layer.maps.clone())) else {
             return Ok(());
         };
-        let kept: Vec<_> = (0..count).map(|_| first.new_alike(device)).collect::<Result<_, _>>()?;
+        let kept: Vec<_> = (0..count).map(|_| BodyMaps::new(kernels, first.space())).collect::<Result<_, _>>()?;
         let mut kept = kept.into_iter();
         let mut maps = Vec::with_capacity(count as usize);
         recorder(Part::Maps, &mut |encoder| {

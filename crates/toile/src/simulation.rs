@@ -11,7 +11,7 @@ use crate::stage::Stage;
 use crate::{Cloth, Colliders, Error, pose};
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
-use toile_gpu::{BodyMaps, MapSpace, Surface, readback};
+use toile_gpu::{BodyMaps, Kernels, MapSpace, Surface, readback};
 use toile_model::{
     Dressing, DressingStage, Finding, Fit, FitOptions, Judged, MapBox, Model, Piece, Solid, StepSettings, Verdict,
 };
@@ -52,6 +52,7 @@ pub struct Worn<'a> {
 #[derive(Debug)]
 pub struct Simulation {
     pub(crate) device: wgpu::Device,
+    pub(crate) kernels: Kernels,
     pub(crate) settings: Settings,
     pub(crate) bodies: Bodies,
     /// The way of the body from the pose that garments are sewn in to the start of its motion.
@@ -84,31 +85,32 @@ pub(crate) enum Phase {
 }
 
 impl Simulation {
-    /// A scene at its start. Before anything is sewn, [`Fit`] looks at how body and panels stand, and mends what it can; see
+    /// A scene at its start; `kernels` is a device, or the pipelines that other simulations on it use. Before anything is sewn, [`Fit`] looks at how body and panels stand, and mends what it can; see
     /// [`Simulation::findings`]. A body that moves is dressed in the first of these poses that stands clear of the panels, or else in the clearest:
     /// the first of its motion, that without any clip, those of its clip; it goes over to its motion in a second.
     ///
     /// # Errors
     /// [`Error::Fit`] when what stands in the way of sewing cannot be mended, [`Error::Model`] when a garment cannot be meshed or a frame would take
     /// too many steps, [`Error::Body`] when a body leads to no place. What does not fit the device is told by [`Simulation::advance`].
-    pub fn new(device: &wgpu::Device, scene: &Scene) -> Result<Self, Error> {
-        Self::fitted(device, &Fit::new(scene, &FitOptions::default())?)
+    pub fn new(kernels: impl Into<Kernels>, scene: &Scene) -> Result<Self, Error> {
+        Self::fitted(kernels, &Fit::new(scene, &FitOptions::default())?)
     }
 
     /// A scene whose garments are sewn in the first pose of `from`: the same body with another clip.
     ///
     /// # Errors
     /// [`Error::Pose`] when the scene has no such body, and as [`Simulation::new`].
-    pub fn dressed_in(device: &wgpu::Device, scene: &Scene, from: &MovingMesh) -> Result<Self, Error> {
+    pub fn dressed_in(kernels: impl Into<Kernels>, scene: &Scene, from: &MovingMesh) -> Result<Self, Error> {
         let options = FitOptions { dress_in: Some(from.clone()), ..FitOptions::default() };
-        Self::fitted(device, &Fit::new(scene, &options)?)
+        Self::fitted(kernels, &Fit::new(scene, &options)?)
     }
 
     /// A scene that has been looked at.
     ///
     /// # Errors
     /// [`Error::Pose`] when the pose to dress in is not one of the body that moves, and otherwise as [`Simulation::new`].
-    pub fn fitted(device: &wgpu::Device, fit: &Fit) -> Result<Self, Error> {
+    pub fn fitted(kernels: impl Into<Kernels>, fit: &Fit) -> Result<Self, Error> {
+        let kernels = kernels.into();
         let scene = &fit.scene;
         let way = pose::way(fit);
         if fit.dress_in.is_some() && way.is_none() {
@@ -126,7 +128,8 @@ impl Simulation {
         let settings = scene.settings.clone();
         let control = Control::of(&settings, &bodies.shapes, &pieces);
         let mut simulation = Self {
-            device: device.clone(),
+            device: kernels.device().clone(),
+            kernels,
             way: way.filter(|_| pieces.iter().any(|piece| piece.open.is_some())),
             boxes: None,
             keeps_maps: false,
@@ -277,8 +280,7 @@ impl Simulation {
             let maps = self.draw_still_maps(&dressed.done, &inner, recorder)?;
             let Phase::Dressing(dressed) = &mut self.phase else { return Ok(0) };
             let colliders = Colliders { maps, shapes: self.bodies.shapes.clone() };
-            let alike = dressed.done.last().map(|done| &done.cloth);
-            dressed.fitting = Some(Fitting::new(&self.device, piece, colliders, alike)?);
+            dressed.fitting = Some(Fitting::new(&self.kernels, piece, colliders)?);
         }
         let Phase::Dressing(dressed) = &mut self.phase else { return Ok(0) };
         let Some(fitting) = &mut dressed.fitting else { return Ok(0) };
@@ -308,7 +310,7 @@ impl Simulation {
         let Some(map_box) = self.still_box(&meshes, garment_bounds) else { return Ok(None) };
         let dressed = self.pieces.iter().filter(|piece| piece.open.is_some());
         let area = meshes.iter().map(|mesh| mesh.area()).sum::<f64>() + self.inner_area(dressed, garments.len());
-        let maps = BodyMaps::new(&self.device, &MapSpace { kind: self.settings.maps, map_box, moving: false, area })?;
+        let maps = BodyMaps::new(&self.kernels, &MapSpace { kind: self.settings.maps, map_box, moving: false, area })?;
         let surface = |mesh: &&Mesh| Surface::new(&self.device, mesh, map_box.texel);
         let mut surfaces: Vec<Surface> = meshes.iter().map(surface).collect();
         surfaces.extend(garments.iter().map(|done| done.cloth.frame().surface(&self.device)));
@@ -359,7 +361,6 @@ impl Simulation {
             garment_bounds = known;
         }
         let mut outfit = self.outfit(stage, &garment_bounds)?;
-        let device = self.device.clone();
         recorder(Part::Steps, &mut |encoder| match &self.phase {
             Phase::Dressing(dressed) => {
                 // Garments begin at rest where they hang.
@@ -376,7 +377,7 @@ impl Simulation {
             }
         })?;
         if self.keeps_maps && stage == Stage::Running {
-            outfit.keep_maps(&device, &self.bodies.moving[0], recorder)?;
+            outfit.keep_maps(&self.kernels, &self.bodies.moving[0], recorder)?;
         }
         self.clock = Clock::default();
         self.phase = Phase::Together { outfit: Box::new(outfit), stage, garment_bounds };
@@ -415,15 +416,11 @@ impl Simulation {
             Laid { model: &piece.model, step, is_worn: piece.open.is_some(), pins }
         };
         let cloths: Vec<Laid<'_>> = self.pieces.iter().map(laid).collect();
-        let alike = match &self.phase {
-            Phase::Dressing(dressed) => dressed.done.last().map(|done| &done.cloth),
-            Phase::Together { outfit, .. } => outfit.cloths().next(),
-        };
         let area = boxes.as_ref().map_or(0.0, Boxes::area)
             + bodies.still.iter().map(Mesh::area).sum::<f64>()
             + self.under_all();
         let maps = MapPlan { kind: self.settings.maps, boxes, still_box, area };
-        Outfit::new(&self.device, &bodies, &cloths, maps, rate, alike)
+        Outfit::new(&self.kernels, &bodies, &cloths, maps, rate)
     }
 
     /// The numbers of a step of a piece once all go together, where a frame of the first has so many steps.

@@ -173,7 +173,7 @@ impl Simulation {
             })?;
             let model = piece.model_of(stage);
             let colliders = Colliders { maps, shapes: self.bodies.shapes.clone() };
-            let mut cloth = Cloth::new(&self.device, model, &piece.settings_of(stage), colliders)?;
+            let mut cloth = Cloth::new(&self.kernels, model, &piece.settings_of(stage), colliders)?;
             saved.write(queue, &mut cloth)?;
             // What the maps of the next garment draw.
             submit(&self.device, queue, &mut |encoder| cloth.record_normals(encoder));
@@ -208,7 +208,7 @@ impl Simulation {
             outfit.set_place(DVec3::from_array(state.place));
         }
         if self.keeps_maps && stage == Stage::Running {
-            outfit.keep_maps(&self.device, &self.bodies.moving[0], &mut |_, record| {
+            outfit.keep_maps(&self.kernels, &self.bodies.moving[0], &mut |_, record| {
                 submit(&self.device, queue, record);
                 Ok(())
             })?;

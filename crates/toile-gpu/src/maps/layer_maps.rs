@@ -4,7 +4,7 @@ use super::surface::{Surface, create};
 use super::{MapSpace, MapsFault};
 use crate::contents::{Encode, uniform};
 use crate::slot::Slot;
-use crate::{GpuError, Pass, Program};
+use crate::{GpuError, Kernels, Pass, Program};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, PoisonError};
 use toile_kernels::{Kernel, structs};
@@ -65,9 +65,10 @@ impl LayerMaps {
     ///
     /// # Errors
     /// [`GpuError::MapTooLarge`] and [`GpuError::BufferTooLarge`] when they do not fit the device.
-    pub(crate) fn new(device: &wgpu::Device, space: &MapSpace) -> Result<Self, GpuError> {
+    pub(crate) fn new(kernels: &Kernels, space: &MapSpace) -> Result<Self, GpuError> {
         let draw = if space.moving { Kernel::DrawMovingLayers } else { Kernel::DrawLayers };
-        Self::with_programs(device, space, (draw, Program::new(device, draw)), Program::new(device, Kernel::SortLayers))
+        let sort = kernels.program(Kernel::SortLayers);
+        Self::with_programs(kernels.device(), space, (draw, kernels.program(draw)), sort)
     }
 
     /// Empty maps that are drawn and sorted by other WGSL with the interface of the kernels.
@@ -78,14 +79,6 @@ impl LayerMaps {
         let kernels = [if space.moving { Kernel::DrawMovingLayers } else { Kernel::DrawLayers }, Kernel::SortLayers];
         let [draw, sort] = [0, 1].map(|k| Program::of_source(device, kernels[k], sources[k], &[]));
         Self::with_programs(device, space, (kernels[0], draw), sort)
-    }
-
-    /// Empty maps of the same size and kind, which share the pipelines of these.
-    ///
-    /// # Errors
-    /// As [`LayerMaps::new`].
-    pub(crate) fn new_alike(&self, device: &wgpu::Device) -> Result<Self, GpuError> {
-        Self::with_programs(device, &self.space, self.draw.clone(), self.sort.clone())
     }
 
     fn with_programs(

@@ -1,8 +1,8 @@
 //! The papers' maps: depth, normals and velocities as two cameras see them, from the front and the back. W §4.
 
 use super::surface::{Surface, create};
-use crate::GpuError;
 use crate::contents::{Encode, uniform};
+use crate::{GpuError, Kernels};
 use std::sync::{Mutex, PoisonError};
 use toile_kernels::{render_sides_source, structs};
 use toile_model::{MapBox, SideBox};
@@ -88,14 +88,15 @@ impl SideMaps {
     ///
     /// # Errors
     /// [`GpuError::MapTooLarge`] when the box has more texels on a side than the device's textures.
-    pub(crate) fn new(device: &wgpu::Device, map_box: MapBox, moving: bool) -> Result<Self, GpuError> {
+    pub(crate) fn new(kernels: &Kernels, map_box: MapBox, moving: bool) -> Result<Self, GpuError> {
+        let device = kernels.device();
         let available = device.limits().max_texture_dimension_2d;
         let [columns, rows, _] = map_box.size;
         if columns.max(rows) > available {
             return Err(GpuError::MapTooLarge { columns, rows, available });
         }
         let size = wgpu::Extent3d { width: columns, height: rows, depth_or_array_layers: 2 };
-        let (layout, pipeline) = create_pipeline(device, moving);
+        let SidePipeline { layout, pipeline } = kernels.sides(moving);
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         Ok(Self {
             size,
@@ -107,22 +108,6 @@ impl SideMaps {
             layout,
             cameras: Mutex::default(),
         })
-    }
-
-    /// Empty maps of the same size and kind, which share the pipeline of these.
-    pub(crate) fn new_alike(&self, device: &wgpu::Device) -> Self {
-        let map = |label, format| Map::new(device, label, format, self.size);
-        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
-        Self {
-            size: self.size,
-            depth: map("depth map", DEPTH_FORMAT),
-            normals: map("normal map", COLOUR_FORMAT),
-            velocities: self.is_moving().then(|| map("velocity map", COLOUR_FORMAT)),
-            box_uniform: create(device, "side_box", &vec![0; self.box_uniform.size() as usize], usage),
-            pipeline: self.pipeline.clone(),
-            layout: self.layout.clone(),
-            cameras: Mutex::default(),
-        }
     }
 
     /// Records the drawing of all surfaces into a box, each offset along its normals by the thickness beside it [m].
@@ -295,7 +280,26 @@ fn bytes_of(columns: u32, rows: u32, moving: bool) -> u64 {
     texels * (4 + 16 * colours) + <structs::SideBox as encase::ShaderType>::min_size().get()
 }
 
-fn create_pipeline(device: &wgpu::Device, moving: bool) -> (wgpu::BindGroupLayout, wgpu::RenderPipeline) {
+/// What draws the papers' maps.
+#[derive(Clone, Debug)]
+pub(crate) struct SidePipeline {
+    layout: wgpu::BindGroupLayout,
+    pipeline: wgpu::RenderPipeline,
+}
+
+impl SidePipeline {
+    /// Compiles it, or takes it from a cache, for bodies at rest or for those that move.
+    pub(crate) fn new(device: &wgpu::Device, moving: bool, cache: Option<&wgpu::PipelineCache>) -> Self {
+        let (layout, pipeline) = create_pipeline(device, moving, cache);
+        Self { layout, pipeline }
+    }
+}
+
+fn create_pipeline(
+    device: &wgpu::Device,
+    moving: bool,
+    cache: Option<&wgpu::PipelineCache>,
+) -> (wgpu::BindGroupLayout, wgpu::RenderPipeline) {
     let label = Some("render_sides");
     let uniform = |binding| wgpu::BindGroupLayoutEntry {
         binding,
@@ -361,7 +365,7 @@ fn create_pipeline(device: &wgpu::Device, moving: bool) -> (wgpu::BindGroupLayou
             targets: &targets,
         }),
         multiview_mask: None,
-        cache: None,
+        cache,
     });
     (layout, pipeline)
 }
