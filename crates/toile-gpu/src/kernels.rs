@@ -30,7 +30,7 @@ impl Kernels {
     }
 
     /// The same, made with a cache that the host keeps from one start to the next where the device has
-    /// [`PIPELINE_CACHE`](wgpu::Features::PIPELINE_CACHE).
+    /// `wgpu::Features::PIPELINE_CACHE`.
     pub fn with_cache(device: &wgpu::Device, cache: wgpu::PipelineCache) -> Self {
         Self::make(device, Some(cache))
     }

@@ -80,7 +80,10 @@ fn pages() -> Result<(), String> {
     for page in &pages {
         let text = fs::read_to_string(page).map_err(|error| format!("{}: {error}", page.display()))?;
         let links = text.split("href=\"").skip(1).filter_map(|rest| rest.split('"').next());
-        for link in links.filter(|link| !(link.contains(':') || link.contains('$') || link.starts_with('#'))) {
+        let elsewhere = |link: &str| link.contains("://") || link.contains('$') || link.starts_with(['#', '?']);
+        for link in
+            links.filter(|link| !elsewhere(link) && !link.starts_with("data:") && !link.starts_with("javascript:"))
+        {
             let path = link.split('#').next().unwrap_or(link);
             // rustdoc links a list of all items from each crate that is shown within another, and writes none.
             let is_there = path.ends_with("all.html") || page.parent().is_some_and(|folder| folder.join(path).exists());
