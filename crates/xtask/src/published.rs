@@ -13,8 +13,10 @@ const CRATES: [&str; 7] =
 const WASM: &str = "wasm32-unknown-unknown";
 
 /// What stands in brackets and is no link: units, and names of shapes.
-const UNITS: [&str; 16] =
-    ["1", "m", "cm", "mm", "m²", "m³", "kg", "s", "ms", "Hz", "rad", "degrees", "J", "N", "Pa", "bytes"];
+const UNITS: [&str; 19] = [
+    "1", "m", "cm", "mm", "m²", "m³", "kg", "s", "ms", "Hz", "rad", "degrees", "J", "N", "Pa", "byte", "bytes",
+    "texel", "px",
+];
 
 /// Packages every library crate, builds for a browser, and follows the links of the library's pages.
 pub fn check() -> Result<(), String> {
