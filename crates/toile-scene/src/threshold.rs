@@ -34,6 +34,11 @@ impl Threshold {
     pub fn least(&self) -> f64 {
         self.warp.min(self.weft).min(self.shear)
     }
+
+    /// The largest of the three [1].
+    pub fn most(&self) -> f64 {
+        self.warp.max(self.weft).max(self.shear)
+    }
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ mod bending;
 mod dressing;
 mod fit;
 mod garments;
+mod letting_out;
 mod long_limits;
 mod random_outlines;
 mod seams;
