@@ -1,6 +1,7 @@
 //! What a model must be, on grids, shapes, seams, real garments and random outlines.
 
 mod bending;
+mod crossed;
 mod dressing;
 mod fit;
 mod garments;
