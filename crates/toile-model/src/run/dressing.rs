@@ -21,8 +21,9 @@ const STUCK_SECONDS: f32 = 0.25;
 const MERGED_GAP: f32 = 0.01;
 /// Simulated time that a sewn garment has to ease [s].
 const EASING_SECONDS: f32 = 0.5;
-/// A garment is too tight for its limits when, eased, it has a spring that is stretched by its threshold and this [1]: no garment that fits has.
-const TIGHT_ABOVE: f32 = 0.05;
+/// A garment is far too tight for its limits when, eased, it has a spring that is stretched by its threshold and this [1]. No garment that fits
+/// has one, and one that is only a little too tight gives way into its thickness, as evenly as it would otherwise.
+const TIGHT_ABOVE: f32 = 0.1;
 /// Simulated time that such a garment has to find where it must stretch [s].
 const YIELDING_SECONDS: f32 = 0.5;
 /// Simulated time that a garment has to come to rest [s].
