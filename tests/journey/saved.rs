@@ -1,6 +1,6 @@
 //! The whole state as bytes: a simulation goes on bit for bit, and only with its own.
 
-use crate::support::{advance, gpu, positions, rolling, start, walking};
+use crate::support::{advance, gpu, positions, rolling, standing, start, walking};
 use toile::{Error, Simulation, Stage};
 use toile_scene::Scene;
 
@@ -58,6 +58,31 @@ fn every_stage_goes_on_bit_for_bit() {
         compared += 1;
     }
     assert!(compared > 6, "{compared} pairs of frames");
+}
+
+/// Its limits are no longer those of its scene.
+#[test]
+fn a_garment_that_is_let_out_goes_on_bit_for_bit() {
+    let (scene, _) = standing("skirt", 1.15);
+    let mut simulation = start(&scene);
+    advance(&mut simulation, FRAME);
+    let longest = |simulation: &Simulation| {
+        let worn = simulation.cloths().next().expect("a skirt");
+        worn.model.limits.iter().map(|limit| limit.max_length / limit.rest_length).fold(0.0, f32::max)
+    };
+    let beginning = save(&simulation);
+    while longest(&simulation) < 1.06 {
+        assert_ne!(simulation.stage().expect("it is finite"), Stage::Dressed, "it is never let out");
+        advance(&mut simulation, FRAME);
+    }
+    advance(&mut simulation, FRAME);
+    let saved = save(&simulation);
+    let mut resumed = restore(&scene, &saved).unwrap_or_else(|error| panic!("{error}"));
+    assert!(save(&resumed) == saved);
+    assert_eq!(longest(&resumed), longest(&simulation));
+    assert!(go_on(&mut resumed) == go_on(&mut simulation));
+    resumed.restore(&gpu().queue, &beginning).unwrap_or_else(|error| panic!("{error}"));
+    assert!(longest(&resumed) < 1.06, "what was let out later is taken back");
 }
 
 #[test]

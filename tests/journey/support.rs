@@ -32,6 +32,16 @@ pub fn walking(garments: &[&str], clip: &str) -> Scene {
     }
 }
 
+/// A garment at 6 cm on the built-in woman who stands still, her size across times `girth` [1].
+pub fn standing(garment: &str, girth: f32) -> (Scene, Mesh) {
+    let mut scene = walking(&[garment], "apose_to_walk");
+    let Body::Moving(moving) = &scene.bodies[0] else { panic!("she walks") };
+    let mut mesh = moving.mesh.clone();
+    mesh.positions.iter_mut().for_each(|p| *p *= glam::vec3(girth, 1.0, girth));
+    scene.bodies = vec![Body::Mesh(mesh.clone())];
+    (scene, mesh)
+}
+
 /// The built-in woman with a clip.
 pub fn woman(clip: &str) -> MovingMesh {
     let options = BodyOptions { clip: Some(clip.to_owned()), ..Default::default() };

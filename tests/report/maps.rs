@@ -3,7 +3,7 @@
 use crate::lab;
 use toile_reference::ExactDistance;
 use toile_report::experiments::precision::{
-    Coding, MapError, Offset, Probing, Shell, Surroundings, map_error, poses, told, velocity_error,
+    Coding, MapError, Offset, Probing, Shell, Surroundings, map_error, poses, told, told_of_ball, velocity_error,
 };
 use toile_scene::{MapKind, Mesh};
 
@@ -50,4 +50,19 @@ fn layers_tell_of_a_body_what_two_sides_do_not() {
         assert!(sides.wrong_side > 10.0 * layers.wrong_side, "{name}: {sides:?} {layers:?}");
         assert!(sides.error_mean > 4.0 * layers.error_mean, "{name}: {sides:?} {layers:?}");
     }
+}
+
+/// Why no plan chooses two sides by itself: every closed body has a rim, which they see at a grazing angle or not at all.
+#[test]
+fn two_sides_lose_the_rim_of_a_ball() {
+    let lab = lab();
+    let told = |kind| told_of_ball(&lab.gpu(), 20_000, lab.seed, kind).expect("the device answers");
+    let [sides, layers] = [MapKind::Sides, MapKind::Layers].map(told);
+    let ([rim, .., middle], [first, ..]) = (sides.as_slice(), layers.as_slice()) else { panic!("bands") };
+    assert!(middle.unseen == 0.0 && middle.error_p99 < 5e-4, "where they look straight at it: {middle:?}");
+    assert!(rim.unseen > 0.1 && rim.error_p99 > 3e-3, "the thickness of cloth is 3 mm: {rim:?}");
+    for band in &layers {
+        assert!(band.wrong_side == 0.0 && band.unseen == 0.0 && band.error_p99 < 3e-4, "{band:?}");
+    }
+    assert!(first.angle_p99 < 0.1 * rim.angle_p99, "{first:?} {rim:?}");
 }

@@ -84,7 +84,7 @@ impl ReferenceRun {
         match self.worn.last().and_then(|worn| worn.dressing.as_ref()).map(Dressing::stage) {
             None => Stage::Running,
             Some(DressingStage::Sewing) => Stage::Sewing,
-            Some(DressingStage::Easing) => Stage::Easing,
+            Some(DressingStage::Easing | DressingStage::Yielding) => Stage::Easing,
             Some(DressingStage::Draping) => Stage::Draping,
             Some(DressingStage::Dressed) => Stage::Dressed,
         }
@@ -103,11 +103,14 @@ impl ReferenceRun {
             return Err(toile::Error::Diverged { step: status.step, particle, count: status.non_finite_count }.into());
         }
         let Some(dressing) = &mut worn.dressing else { return Ok(steps) };
-        if worn.stage == DressingStage::Draping {
+        if matches!(worn.stage, DressingStage::Yielding | DressingStage::Draping) {
             worn.motion.see(status.step, worn.reference.positions().to_vec(), worn.settings.dt);
         }
         dressing.advance(&status, &worn.motion);
         piece.leave_open(dressing.is_left_open());
+        if worn.stage == DressingStage::Yielding && dressing.stage() != DressingStage::Yielding {
+            piece.let_out_at(worn.motion.positions());
+        }
         if dressing.stage() == DressingStage::Dressed && !is_last {
             let (positions, normals) = (worn.reference.positions().to_vec(), worn.reference.normals());
             self.layers.push((Mesh { positions, normals, triangles: piece.model.triangles() }, true));
@@ -172,8 +175,10 @@ impl Worn {
             let open = piece.open.as_ref().expect("a garment is open before it is sewn");
             self.go_on(DressingStage::Easing, piece, &open.merge);
         }
-        if self.stage == DressingStage::Easing && wanted != DressingStage::Easing {
-            self.go_on(DressingStage::Draping, piece, &Merge::identity(piece.model.particle_count()));
+        let is_sewn = matches!(self.stage, DressingStage::Easing | DressingStage::Yielding);
+        if is_sewn && wanted != self.stage {
+            let next = if wanted == DressingStage::Yielding { wanted } else { DressingStage::Draping };
+            self.go_on(next, piece, &Merge::identity(piece.model.particle_count()));
         }
     }
 

@@ -1,6 +1,7 @@
 //! What a run needs beside its model: the numbers of a step, status, criteria of dressing, how a garment is worn, the place of the maps.
 
 pub(crate) mod dressing;
+pub(crate) mod letting_out;
 pub(crate) mod map_box;
 pub(crate) mod motion;
 pub(crate) mod piece;

@@ -65,6 +65,9 @@ impl Fitting {
         self.heard = Some(status.step);
         self.dressing.advance(&status, &self.motion);
         piece.leave_open(self.dressing.is_left_open());
+        if self.stage == DressingStage::Yielding && self.dressing.stage() != DressingStage::Yielding {
+            piece.let_out_at(self.motion.positions());
+        }
         Ok(())
     }
 
@@ -97,12 +100,15 @@ impl Fitting {
         if self.stage == DressingStage::Sewing && wanted != DressingStage::Sewing {
             self.hand_over(device, encoder, piece, &open.merge, DressingStage::Easing)?;
         }
-        if self.stage == DressingStage::Easing && wanted != DressingStage::Easing {
+        let is_sewn = !matches!(self.stage, DressingStage::Sewing | DressingStage::Draping);
+        if is_sewn && wanted != self.stage {
+            let next = if wanted == DressingStage::Yielding { wanted } else { DressingStage::Draping };
             let same = Merge::identity(piece.model.particle_count());
-            self.hand_over(device, encoder, piece, &same, DressingStage::Draping)?;
+            self.hand_over(device, encoder, piece, &same, next)?;
         }
         self.cloth.record(device, encoder);
-        if self.stage == DressingStage::Draping && self.looks.len() < LOOK_COUNT {
+        let is_seen = matches!(self.stage, DressingStage::Yielding | DressingStage::Draping);
+        if is_seen && self.looks.len() < LOOK_COUNT {
             let positions = Arrival::of(device, encoder, &self.cloth.frame().positions);
             self.looks.push_back((self.cloth.step(), positions));
         }

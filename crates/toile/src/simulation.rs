@@ -250,7 +250,7 @@ impl Simulation {
                 heard?;
                 Ok(match stage {
                     DressingStage::Sewing => Stage::Sewing,
-                    DressingStage::Easing => Stage::Easing,
+                    DressingStage::Easing | DressingStage::Yielding => Stage::Easing,
                     DressingStage::Draping | DressingStage::Dressed => Stage::Draping,
                 })
             }

@@ -38,6 +38,8 @@ struct Identity {
     digest: u64,
     /// Whether its seams stayed open and it is worn as its open model.
     is_left_open: bool,
+    /// By how much its limits are let out [1].
+    let_out: Vec<f32>,
 }
 
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
@@ -133,6 +135,7 @@ impl Simulation {
         let mut pieces = self.pieces.clone();
         for (piece, saved) in pieces.iter_mut().zip(&state.pieces) {
             piece.leave_open(saved.is_left_open);
+            piece.let_out(&saved.let_out);
         }
         let own: Vec<Identity> = pieces.iter().map(Identity::of).collect();
         for (saved, own) in state.pieces.iter().zip(&own) {
@@ -184,7 +187,9 @@ impl Simulation {
             } else {
                 // What was seen last are the positions that were saved.
                 let motion = match stage {
-                    DressingStage::Draping => Motion::begin(saved.step, saved.positions().ok_or_else(damaged)?),
+                    DressingStage::Yielding | DressingStage::Draping => {
+                        Motion::begin(saved.step, saved.positions().ok_or_else(damaged)?)
+                    }
                     _ => Motion::default(),
                 };
                 dressed.fitting = Some(Fitting::go_on(cloth, dressing, heard, stage, motion));
@@ -245,8 +250,13 @@ impl Identity {
     fn of(piece: &Piece) -> Self {
         let numbers = format!("{:?}", piece.step);
         let digest = piece.model.digest() ^ digest_of(numbers.as_bytes());
-        let is_left_open = piece.is_left_open();
-        Self { name: piece.name.clone(), particle_count: piece.model.particle_count(), digest, is_left_open }
+        Self {
+            name: piece.name.clone(),
+            particle_count: piece.model.particle_count(),
+            digest,
+            is_left_open: piece.is_left_open(),
+            let_out: piece.room().to_vec(),
+        }
     }
 }
 

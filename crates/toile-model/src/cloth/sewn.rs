@@ -53,6 +53,19 @@ impl Model {
         (model, merge)
     }
 
+    /// The lines of cloth that this model has once sewn by a merge, as particles of that one; a ring is cut once, and a short line lies across.
+    pub(crate) fn lines_when_sewn(&self, merge: &Merge) -> Vec<Vec<u32>> {
+        let flat: Vec<DVec2> = self.flat.iter().map(|p| p.as_dvec2()).collect();
+        let mut member_of = vec![0; self.positions.len()];
+        for (row, particle) in (0..merge.members.row_count()).zip(0..) {
+            merge.members.row(row).iter().for_each(|&member| member_of[member as usize] = particle);
+        }
+        let count = merge.members.row_count();
+        let cloth = Cloth::new(&self.quads, &self.panels, &flat, &member_of, count, self.threshold);
+        let lines = [cloth.side_lines(), cloth.diagonal_lines()];
+        lines.iter().flat_map(|lines| lines.cut(1)).map(|line| line.particles).collect()
+    }
+
     /// For each particle the one it becomes, and the other way round. Merged particles stand where their first member stood.
     fn merge(&self) -> (Vec<u32>, Merge) {
         let mut sets = UnionFind::new(self.positions.len());

@@ -3,6 +3,7 @@
 use crate::{Model, Motion, Status, StepSettings};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
+use toile_scene::Rule;
 
 /// Seams count as closed when no gap is wider than this [m].
 pub(crate) const SEAM_GAP: f32 = 0.002;
@@ -20,6 +21,11 @@ const STUCK_SECONDS: f32 = 0.25;
 const MERGED_GAP: f32 = 0.01;
 /// Simulated time that a sewn garment has to ease [s].
 const EASING_SECONDS: f32 = 0.5;
+/// A garment is far too tight for its limits when, eased, it has a spring that is stretched by its threshold and this [1]. No garment that fits
+/// has one, and one that is only a little too tight gives way into its thickness, as evenly as it would otherwise.
+const TIGHT_ABOVE: f32 = 0.1;
+/// Simulated time that such a garment has to find where it must stretch [s].
+const YIELDING_SECONDS: f32 = 0.5;
 /// Simulated time that a garment has to come to rest [s].
 const DRAPING_SECONDS: f32 = 8.0;
 /// Viscous damping while sewing [1/s]: panels follow their seams without a momentum that would fold them over.
@@ -34,6 +40,8 @@ pub enum DressingStage {
     Sewing,
     /// It is sewn and falls without friction to where it stretches least, its labelled edges still held.
     Easing,
+    /// It is too tight for its limits: those of single springs alone share out among themselves where it stretches.
+    Yielding,
     /// It comes to rest.
     Draping,
     /// It is at rest, or has not come to rest in its time.
@@ -45,9 +53,15 @@ pub enum DressingStage {
 pub struct Dressing {
     stage: DressingStage,
     dt: f32,
+    /// Whether its rule has limits that hold more than a spring.
+    may_yield: bool,
     sewing_steps: u64,
     draping_steps: u64,
     seam_gap: f32,
+    /// An eased garment whose largest elongation is above this is too tight for its limits [1].
+    tight: f32,
+    /// The step at which it began to yield.
+    yielding_from: u64,
     /// Widest gap when it last had closed by [`STUCK_GAP`] [m], and the step of that.
     closing: (f32, u64),
     /// The step whose motion was looked at last.
@@ -62,9 +76,12 @@ impl Dressing {
         Self {
             stage: if open.seam_pairs.is_empty() { DressingStage::Draping } else { DressingStage::Sewing },
             dt: settings.dt,
+            may_yield: settings.rule == Rule::Hierarchical,
             sewing_steps: 0,
             draping_steps: 0,
             seam_gap: 0.0,
+            tight: open.threshold.most() as f32 + TIGHT_ABOVE,
+            yielding_from: 0,
             closing: (f32::INFINITY, 0),
             seen_step: 0,
             is_left_open: false,
@@ -126,6 +143,16 @@ impl Dressing {
             DressingStage::Easing => {
                 self.draping_steps = status.step - self.sewing_steps;
                 if self.draping_steps as f32 * self.dt >= EASING_SECONDS {
+                    let yields = self.may_yield && !self.is_left_open && status.elongation_max > self.tight;
+                    self.stage = if yields { DressingStage::Yielding } else { DressingStage::Draping };
+                    self.yielding_from = status.step;
+                }
+            }
+            DressingStage::Yielding => {
+                self.draping_steps = status.step - self.sewing_steps;
+                // Where it lies must be known: its limits are let out to that.
+                let seen = motion.step().saturating_sub(self.yielding_from);
+                if seen as f32 * self.dt >= YIELDING_SECONDS {
                     self.stage = DressingStage::Draping;
                 }
             }
@@ -155,6 +182,12 @@ impl StepSettings {
     /// labelled edges are still held.
     pub fn easing(&self) -> Self {
         Self { friction: 0.0, polish: None, ..self.indoors() }
+    }
+
+    /// These settings while a garment that is too tight for its limits finds where it stretches: as it eases, but with single springs alone.
+    /// Longer limits around a bend give more of their pull to the body than straight ones, and leave it stretched the more.
+    pub fn yielding(&self) -> Self {
+        Self { rule: Rule::Predictive, ..self.easing() }
     }
 
     /// These settings while a sewn garment comes to rest: no wind, damped, and held by the body alone.

@@ -35,6 +35,11 @@ impl Motion {
         self.step
     }
 
+    /// Where the particles were then [m], shape [particle_count].
+    pub fn positions(&self) -> &[Vec3] {
+        &self.positions
+    }
+
     /// Mean velocity of each particle between the last two steps that were seen [m/s], shape [particle_count]; empty before.
     pub fn velocities(&self) -> &[Vec3] {
         &self.velocities

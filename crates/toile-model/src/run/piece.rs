@@ -1,6 +1,7 @@
 //! The cloths of a scene, meshed.
 
 use super::dressing::DressingStage;
+use super::letting_out::LetOut;
 use super::step::StepSettings;
 use crate::{Merge, Model, ModelError};
 use glam::Vec3;
@@ -17,6 +18,7 @@ pub struct Piece {
     pub model: Model,
     /// The numbers of a step of the run.
     pub step: StepSettings,
+    let_out: LetOut,
 }
 
 /// A garment before it is sewn.
@@ -57,7 +59,7 @@ impl Piece {
             Cloth::Sheet(sheet) => {
                 let model = Model::from_sheet(sheet, settings);
                 let step = StepSettings::of_cloth(&sheet.name, settings, &model)?;
-                Ok(Self { name: sheet.name.clone(), open: None, model, step })
+                Ok(Self { name: sheet.name.clone(), open: None, model, step, let_out: LetOut::default() })
             }
             Cloth::Garment(garment) => {
                 let open = Model::from_garment(garment, settings)?;
@@ -65,7 +67,7 @@ impl Piece {
                 let (model, merge) = open.sewn();
                 let step = StepSettings::of_cloth(&garment.name, settings, &model)?;
                 let open = Open { model: open, merge, sewing: open_step.sewing(), step: open_step, sewn: None };
-                Ok(Self { name: garment.name.clone(), open: Some(open), model, step })
+                Ok(Self { name: garment.name.clone(), open: Some(open), model, step, let_out: LetOut::default() })
             }
         }
     }
@@ -122,11 +124,30 @@ impl Piece {
         self.open.as_ref().is_some_and(|open| open.sewn.is_some())
     }
 
+    /// Lets limits out to what the garment needs where it lies, at positions [m], shape [particle_count], evened out along the lines of its
+    /// cloth. What is stretched within its threshold keeps its limits; so do sheets, and what is left open.
+    pub fn let_out_at(&mut self, positions: &[Vec3]) {
+        let Some(open) = self.open.as_ref().filter(|open| open.sewn.is_none()) else { return };
+        let ratios = self.model.room_at(&open.model, &open.merge, positions);
+        self.let_out(&ratios);
+    }
+
+    /// Lets limits out by so much each [1], shape [limit_count], in place of what they were let out by before; empty takes that back.
+    pub fn let_out(&mut self, ratios: &[f32]) {
+        self.let_out.apply(&mut self.model, ratios);
+    }
+
+    /// By how much limits are let out [1], shape [limit_count]; empty where none is.
+    pub fn room(&self) -> &[f32] {
+        &self.let_out.ratios
+    }
+
     /// The numbers of a step in a stage of the dressing.
     pub fn settings_of(&self, stage: DressingStage) -> StepSettings {
         match (stage, &self.open) {
             (DressingStage::Sewing, Some(open)) => open.sewing.clone(),
             (DressingStage::Easing, _) => self.step.easing(),
+            (DressingStage::Yielding, _) => self.step.yielding(),
             _ => self.step.draping(),
         }
     }

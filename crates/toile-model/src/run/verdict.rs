@@ -94,7 +94,7 @@ impl Verdict {
         }
         findings.extend(empty.into_iter().map(|opening| Flaw::OpeningEmpty { opening }));
         let (crossed, depth) = crossed_particles(model, positions, body);
-        findings.extend(panels.place(&crossed, positions).map(|place| Flaw::Caught {
+        findings.extend(panels.place_among(&crossed, positions).map(|place| Flaw::Caught {
             particle_count: crossed.len() as u32,
             depth: depth as f32,
             place,
@@ -144,7 +144,7 @@ fn not_at_rest(panels: &Panels<'_>, particles: &[u32], positions: &[Vec3], veloc
     Some(Flaw::NotAtRest {
         particle_count: moving.len() as u32,
         speed: moving.iter().map(|&particle| speed(particle)).fold(0.0, f32::max),
-        place: panels.place(&moving, positions)?,
+        place: panels.place_among(&moving, positions)?,
     })
 }
 

@@ -3,6 +3,7 @@
 use crate::support::*;
 use glam::Vec3;
 use toile_model::{Dressing, DressingStage, Model, Motion, Status, StepSettings};
+use toile_scene::Rule;
 
 const DT: f32 = 1.0 / 960.0;
 /// Steps of a frame.
@@ -10,8 +11,13 @@ const FRAME: u64 = 16;
 
 /// Two squares that one seam joins, on their way.
 fn dressing() -> Dressing {
+    dressing_under(Rule::Hierarchical)
+}
+
+fn dressing_under(rule: Rule) -> Dressing {
     let garment = garment(vec![rectangle("a", [0.2, 0.2], 0.1), rectangle("b", [0.2, 0.2], -0.1)], &[([0, 1], [1, 1])]);
-    let settings = settings(0.05);
+    let mut settings = settings(0.05);
+    settings.velocity_modification.rule = rule;
     let model = Model::from_garment(&garment, &settings).expect("it meshes");
     let step = StepSettings { dt: DT, ..StepSettings::new(&settings, &model) };
     Dressing::new(&model, &step)
@@ -60,6 +66,41 @@ fn seams_have_the_time_that_they_use_and_stuck_ones_do_not_wait() {
     let mut endless = dressing();
     let frames = sew(&mut endless, |frame| 100.0 - 0.05 * frame as f32);
     assert!((590..=602).contains(&frames) && endless.is_left_open(), "ten seconds are the longest, {frames} frames");
+}
+
+/// What comes after easing when the largest elongation is so much [1], and the frame of it since it was sewn.
+fn after_easing(dressing: &mut Dressing, elongation_max: f32) -> (DressingStage, u64) {
+    let sewn = sew(dressing, |_| 0.0);
+    for frame in 1..1000 {
+        let status = Status { elongation_max, ..status((sewn + frame) * FRAME, 0.0) };
+        let stage = dressing.advance(&status, &Motion::default());
+        if stage != DressingStage::Easing {
+            return (stage, frame);
+        }
+    }
+    panic!("it eases for ever");
+}
+
+#[test]
+fn what_is_too_tight_yields_before_it_drapes() {
+    // Cotton allows 5 %.
+    assert_eq!(after_easing(&mut dressing(), 0.14), (DressingStage::Draping, 30), "its thickness has room for it");
+    assert_eq!(after_easing(&mut dressing_under(Rule::Predictive), 0.3).0, DressingStage::Draping, "all springs share");
+    let mut tight = dressing();
+    let (stage, eased) = after_easing(&mut tight, 0.16);
+    assert_eq!(stage, DressingStage::Yielding);
+    let mut frame = tight.sewing_steps() / FRAME + eased;
+    let mut motion = Motion::default();
+    let mut go = |tight: &mut Dressing, motion: &Motion| {
+        frame += 1;
+        tight.advance(&status(frame * FRAME, 0.0), motion)
+    };
+    assert!((0..100).all(|_| go(&mut tight, &motion) == DressingStage::Yielding), "nobody saw where it lies");
+    let yielded = tight.sewing_steps() + (eased + 30) * FRAME;
+    motion.see(yielded - FRAME, vec![Vec3::ZERO; 8], DT);
+    assert_eq!(go(&mut tight, &motion), DressingStage::Yielding);
+    motion.see(yielded, vec![Vec3::ZERO; 8], DT);
+    assert_eq!(go(&mut tight, &motion), DressingStage::Draping);
 }
 
 #[test]

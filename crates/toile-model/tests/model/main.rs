@@ -1,9 +1,11 @@
 //! What a model must be, on grids, shapes, seams, real garments and random outlines.
 
 mod bending;
+mod crossed;
 mod dressing;
 mod fit;
 mod garments;
+mod letting_out;
 mod long_limits;
 mod random_outlines;
 mod seams;

@@ -8,7 +8,7 @@ mod refinement;
 
 pub use elongation::{Limited, Limiting, limited};
 pub use maps::{Coding, MapError, Offset, Probing, Shell, map_error, velocity_error};
-pub use poses::{Surroundings, Told, poses, told};
+pub use poses::{BallTold, Surroundings, Told, poses, told, told_of_ball};
 pub use position::{Scene, rest_error};
 pub use refinement::shape_errors;
 

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 pub struct Place {
     /// The panel that most of it is on.
     pub panel: String,
-    /// The middle of it [m].
+    /// The middle of what goes around; of what lies here and there the particle that is nearest to it [m].
     pub position: [f32; 3],
 }
 
@@ -65,11 +65,37 @@ impl<'a> Panels<'a> {
         let sum: Vec3 = particles.iter().map(|&particle| positions[particle as usize]).sum();
         Some(Place { panel: panel.to_owned(), position: (sum / particles.len() as f32).to_array() })
     }
+
+    /// The same of particles that lie here and there, on both hands it may be: their middle alone would be in the air.
+    pub(crate) fn place_among(&self, particles: &[u32], positions: &[Vec3]) -> Option<Place> {
+        let place = self.place(particles, positions)?;
+        let middle = Vec3::from_array(place.position);
+        let points = particles.iter().map(|&particle| positions[particle as usize]);
+        let nearest =
+            points.min_by(|a, b| a.distance_squared(middle).total_cmp(&b.distance_squared(middle))).unwrap_or(middle);
+        Some(Place { position: nearest.to_array(), ..place })
+    }
 }
 
 impl std::fmt::Display for Place {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let [x, y, z] = self.position;
         write!(f, "panel {} at ({x:.2}, {y:.2}, {z:.2}) m", self.panel)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Panels;
+    use glam::{Vec3, vec3};
+
+    #[test]
+    fn what_lies_on_both_hands_is_told_on_one_of_them() {
+        let panels = Panels { names: vec!["front"], of_particle: vec![0; 5] };
+        let positions =
+            [vec3(-0.5, 1.1, 0.2), vec3(-0.46, 1.1, 0.2), vec3(0.47, 1.1, 0.2), vec3(0.5, 1.1, 0.2), Vec3::ZERO];
+        let place = panels.place_among(&[0, 1, 2, 3], &positions).expect("a place");
+        assert_eq!((place.panel.as_str(), place.position), ("front", positions[1].to_array()));
+        assert_eq!(panels.place_among(&[], &positions), None);
     }
 }

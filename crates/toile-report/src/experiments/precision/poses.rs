@@ -96,6 +96,11 @@ impl Surroundings {
 /// # Errors
 /// [`LabError::Toile`] when they do not fit the device.
 pub fn told(gpu: &Gpu, body: &Mesh, around: &Surroundings, kind: MapKind) -> Result<Told, LabError> {
+    Ok(Told::of(around, &probes(gpu, body, around, kind)?))
+}
+
+/// What maps tell of the points around a body: eight words each.
+fn probes(gpu: &Gpu, body: &Mesh, around: &Surroundings, kind: MapKind) -> Result<Vec<f32>, LabError> {
     let settings = settings();
     let drawn = DrawnMaps::draw(gpu, kind, &[(body, 0.0)], settings.texel as f32)?;
     let count = around.points.len();
@@ -112,8 +117,106 @@ pub fn told(gpu: &Gpu, body: &Mesh, around: &Surroundings, kind: MapKind) -> Res
     };
     let compiled = Compiled::new(gpu, kernel, &kernel.source()).expect("the kernel compiles");
     let written = compiled.run(gpu, count as u32, &sampled)?;
-    let probes: Vec<f32> = written["probes"].iter().map(|word| f32::from_bits(*word)).collect();
-    Ok(Told::of(around, &probes))
+    Ok(written["probes"].iter().map(|word| f32::from_bits(*word)).collect())
+}
+
+/// Radius of the ball that two sides see as well as any body [m].
+const BALL_RADIUS: f32 = 0.25;
+/// The surface is nearer than this to the points that are judged around the ball [m].
+const TOUCHING: f64 = 0.005;
+/// Smallest part of the normal along z that the bands around a ball have, from its rim to its middle [1].
+const BANDS: [f64; 4] = [0.0, 0.05, 0.2, 0.5];
+
+/// What maps tell in a band around a ball, of points within 5 mm of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BallTold {
+    /// The part of the normal along z that it begins and ends with [1].
+    pub slant: [f64; 2],
+    /// Part of the points farther than 2 mm from the surface that are told on its other side [1].
+    pub wrong_side: f64,
+    /// Part of the points that see nothing [1].
+    pub unseen: f64,
+    /// Error of the distance that 99 of 100 of the others do not exceed [m].
+    pub error_p99: f64,
+    /// Angle between the true normal and the one that is told that 99 of 100 of them do not exceed [rad].
+    pub angle_p99: f64,
+}
+
+/// What maps tell of a ball of 25 cm, from its rim, as a camera along z sees it, to its middle. No body is seen better from two sides.
+///
+/// # Errors
+/// [`LabError::Toile`] when they do not fit the device.
+pub fn told_of_ball(gpu: &Gpu, count: usize, seed: u64, kind: MapKind) -> Result<Vec<BallTold>, LabError> {
+    let ball = Mesh::sphere(Vec3::ZERO, BALL_RADIUS, 96);
+    let around = Surroundings::new(&ball, count, seed);
+    let probes = probes(gpu, &ball, &around, kind)?;
+    let slant_of = |point: &Vec3| f64::from(point.z.abs() / point.length());
+    let ends = BANDS[1..].iter().copied().chain([1.0]);
+    let band = |(first, last): (f64, f64)| {
+        let (mut judged, mut wrong, mut near, mut unseen) = (0u32, 0u32, 0u32, 0u32);
+        let (mut errors, mut angles) = (Vec::new(), Vec::new());
+        let seen = around.points.iter().zip(&around.distances).zip(probes.chunks_exact(8));
+        for ((point, &distance), probe) in seen.filter(|((point, _), _)| (first..=last).contains(&slant_of(point))) {
+            let (hit, told) = (probe[7] > 0.0, f64::from(probe[3]));
+            if distance.abs() > UNDECIDED {
+                judged += 1;
+                wrong += u32::from((hit && told < 0.0) != (distance < 0.0));
+            }
+            if distance.abs() < TOUCHING {
+                near += 1;
+                unseen += u32::from(!hit);
+                if hit {
+                    errors.push((told - distance).abs());
+                    angles.push(f64::from(Vec3::from_slice(probe).angle_between(*point)));
+                }
+            }
+        }
+        let part = |some: u32, all: u32| f64::from(some) / f64::from(all.max(1));
+        let p99 = |values| max_and_p99(values).map_or(0.0, |[_, p99]| p99);
+        BallTold {
+            slant: [first, last],
+            wrong_side: part(wrong, judged),
+            unseen: part(unseen, near),
+            error_p99: p99(errors),
+            angle_p99: p99(angles),
+        }
+    };
+    Ok(BANDS.into_iter().zip(ends).map(band).collect())
+}
+
+/// The table of a ball.
+fn of_a_ball(lab: &Lab, count: usize) -> Result<Table, LabError> {
+    let caption = format!(
+        "What maps with texels of 5 mm tell of a ball of {} cm, from its rim, as a camera along z sees it, to its middle: {count} points as \
+         above, the last three columns of those within {} mm of the surface. {}",
+        1e2 * BALL_RADIUS,
+        1e3 * TOUCHING,
+        lab.place()
+    );
+    let columns = [
+        ["maps", ""],
+        ["normal along z, from", ""],
+        ["to", ""],
+        ["wrong side", "%"],
+        ["sees nothing", "%"],
+        ["error of the distance, p99", "mm"],
+        ["error of the normal, p99", "°"],
+    ];
+    let mut table = Table::new(caption, &columns);
+    for (maps, kind) in KINDS {
+        for band in told_of_ball(&lab.gpu(), count, lab.seed, kind)? {
+            table.push(vec![
+                Cell::text(maps),
+                Cell::number(band.slant[0]),
+                Cell::number(band.slant[1]),
+                Cell::number(1e2 * band.wrong_side),
+                Cell::number(1e2 * band.unseen),
+                Cell::number(1e3 * band.error_p99),
+                Cell::number(band.angle_p99.to_degrees()),
+            ]);
+        }
+    }
+    Ok(table)
 }
 
 impl Told {
@@ -290,5 +393,5 @@ pub(super) fn blocks(lab: &mut Lab, progress: [f64; 2]) -> Result<Vec<Block>, La
         let [drawing, sampling] = cost(lab, &poses[0].1, kind, n)?;
         costs.push(vec![Cell::text(maps), Cell::number(drawing), Cell::number(sampling)]);
     }
-    Ok(vec![Block::Table(table), Block::Table(costs)])
+    Ok(vec![Block::Table(table), Block::Table(of_a_ball(lab, count)?), Block::Table(costs)])
 }

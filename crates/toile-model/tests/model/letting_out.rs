@@ -1,0 +1,92 @@
+//! Limits of cloth that is too tight for them.
+
+use crate::support::*;
+use glam::{Vec3, vec3};
+use toile_model::Piece;
+use toile_scene::{Cloth, Rule, Scene};
+
+/// Cotton, which allows 5 %; its limits aim at 3 %.
+const ALLOWED: f32 = 0.05;
+const AIM: f32 = 0.03;
+
+/// A square of 16 × 16 cells.
+fn square() -> Piece {
+    let mut settings = settings(0.05);
+    settings.velocity_modification.rule = Rule::Hierarchical;
+    let cloth = Cloth::Garment(alone(rectangle("a", [0.8, 0.8], 0.0)));
+    let scene = Scene { name: "square".into(), cloths: vec![cloth], bodies: Vec::new(), settings };
+    Piece::all(&scene).expect("it meshes").remove(0)
+}
+
+/// The square drawn out along x, by `stretch` of the place from side to side [1].
+fn drawn(piece: &Piece, stretch: impl Fn(f32) -> f32) -> Vec<Vec3> {
+    let sum = |x: f32| (0..(x / 0.05).round() as u32).map(|cell| stretch(0.05 * cell as f32)).sum::<f32>();
+    piece.model.flat.iter().map(|flat| vec3(flat.x + 0.05 * sum(flat.x), flat.y, 0.0)).collect()
+}
+
+/// Largest and smallest elongation that limits along x allow, and the largest of those along y [1].
+fn allowed(piece: &Piece) -> [f32; 3] {
+    let mut along = [f32::NEG_INFINITY, f32::INFINITY, f32::NEG_INFINITY];
+    for limit in &piece.model.limits {
+        let [a, b] = limit.ends.map(|end| piece.model.flat[end as usize]);
+        let elongation = limit.max_length / limit.rest_length - 1.0;
+        if (a.y - b.y).abs() < 1e-6 {
+            along[0] = along[0].max(elongation);
+            along[1] = along[1].min(elongation);
+        } else if (a.x - b.x).abs() < 1e-6 {
+            along[2] = along[2].max(elongation);
+        }
+    }
+    along
+}
+
+#[test]
+fn cloth_is_let_out_along_what_is_stretched_and_nowhere_else() {
+    let mut piece = square();
+    let digest = piece.model.digest();
+    let within = drawn(&piece, |_| ALLOWED - 0.005);
+    piece.let_out_at(&within);
+    assert!(piece.room().is_empty() && piece.model.digest() == digest, "within its threshold it keeps its limits");
+    let positions = drawn(&piece, |_| 0.2);
+    piece.let_out_at(&positions);
+    let [most, least, across] = allowed(&piece);
+    assert!((most - 0.2).abs() < 1e-4 && (least - 0.2).abs() < 1e-4, "{least} to {most}");
+    assert!((across - AIM).abs() < 1e-4, "along y it keeps its limits: {across}");
+    piece.let_out(&[]);
+    assert_eq!(piece.model.digest(), digest, "taken back, to the bit");
+}
+
+#[test]
+fn what_every_second_spring_has_is_shared_by_both() {
+    let mut piece = square();
+    let positions = drawn(&piece, |x| if ((x / 0.05).round() as u32).is_multiple_of(2) { 0.05 } else { 0.25 });
+    piece.let_out_at(&positions);
+    let [most, least, _] = allowed(&piece);
+    assert!(least > 0.12 && most < 0.18, "{least} to {most}");
+}
+
+#[test]
+fn limits_along_strands_are_let_out_as_the_single_ones_on_their_way() {
+    let mut piece = square();
+    let before: Vec<_> = piece.model.strand_limits().collect();
+    let positions = drawn(&piece, |x| if x < 0.4 { 0.0 } else { 0.2 });
+    piece.let_out_at(&positions);
+    let flat = |particle: u32| piece.model.flat[particle as usize];
+    let mut halves = [0; 2];
+    for ((ends, was), (_, is)) in before.iter().zip(piece.model.strand_limits()) {
+        let [a, b] = ends.map(flat);
+        if (a.y - b.y).abs() > 1e-6 {
+            continue;
+        }
+        let [left, right] = [a.x.min(b.x), a.x.max(b.x)];
+        // What is evened out between both halves reaches four cells into each.
+        let (half, expected) = match (left, right) {
+            (_, right) if right < 0.19 => (0, 1.0),
+            (left, _) if left > 0.61 => (1, (1.0 + 0.2) / (1.0 + AIM)),
+            _ => continue,
+        };
+        halves[half] += 1;
+        assert!((is / was - expected).abs() < 1e-4, "from {left} to {right} m: {} times as long", is / was);
+    }
+    assert!(halves.iter().all(|count| *count > 50), "{halves:?}");
+}
