@@ -92,7 +92,7 @@ fn a_walk_ends_in_the_same_drape_at_any_frame_rate() {
         let distances: Vec<f32> = ends[one].iter().zip(&ends[other]).map(|(a, b)| a.distance(*b)).collect();
         let mean = distances.iter().sum::<f32>() / distances.len() as f32;
         let most = distances.iter().copied().fold(0.0, f32::max);
-        assert!(mean > 0.0 && mean < 0.003 && most < 0.01, "{mean} m apart on average, at most {most} m");
+        assert!(mean > 0.0 && mean < 0.006 && most < 0.015, "{mean} m apart on average, at most {most} m");
     }
 }
 
@@ -108,7 +108,7 @@ fn a_garment_whose_seams_stay_open_is_told_and_goes_on() {
     let verdicts = simulation.verdicts(&gpu().queue).expect("a device");
     let [verdict] = verdicts.as_slice() else { panic!("{verdicts:?}") };
     let Some(Flaw::SeamOpen { seam, gap }) = verdict.findings.first() else { panic!("{verdict:?}") };
-    assert!(seam.contains(" to ") && *gap > 1.0, "{seam}: {gap} m");
+    assert!(seam.contains(" to ") && *gap > 0.1, "{seam}: {gap} m");
     assert!(!verdict.is_worn() && verdict.openings.is_empty(), "{verdict:?}");
     let saved = simulation.save(&gpu().queue).expect("a device");
     let mut restored = start(&scene);

@@ -95,24 +95,24 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
         }
         Kernel::LimitPredictive => {
             ends(&limit_ends(before), before, after, &mut see);
-            let impulses = || before.limit_impulses[before.colour()].iter().zip(&after.limit_impulses[before.colour()]);
-            see("begins to pull", impulses().filter(|(old, new)| **old == 0.0 && **new > 0.0).count());
-            see("pulls more", impulses().filter(|(old, new)| **old > 0.0 && new > old).count());
-            see("takes a part back", impulses().filter(|(old, new)| **new > 0.0 && new < old).count());
-            see("takes all back", impulses().filter(|(old, new)| **old > 0.0 && **new == 0.0).count());
-            see("never pulled", impulses().filter(|(old, new)| **old == 0.0 && **new == 0.0).count());
-            assert!(impulses().all(|(_, new)| *new >= 0.0), "a limit never pushes");
+            let pulled = |i: &&usize| before.pulls[**i] != after.pulls[**i];
+            see("keeps what it gave", limit_ends(before).iter().flatten().filter(|i| pulled(i)).count());
         }
         Kernel::LimitGuard => {
-            ends(&limit_ends(before), before, after, &mut see);
             let at = |i: u32| positions[i as usize] + before.particles.velocities[i as usize] * before.settings.dt;
-            let excess = |l: &toile_model::Limit| {
-                (at(l.ends[1]) - at(l.ends[0])).length() - (2.0 * l.max_length - l.rest_length)
-            };
+            let first = |ends: [u32; 2], length: f32| (at(ends[1]) - at(ends[0])).length() - length;
+            let firsts = before
+                .span
+                .clone()
+                .map(|k| k as usize)
+                .map(|k| (before.model.clusters[k].nodes, before.model.guard_lengths[k][0]));
+            let excesses: Vec<f32> = firsts.map(|([a, b, ..], length)| first([a, b], length)).collect();
             let way = before.settings.guard_way();
-            let excesses = || before.colour_limits().iter().map(excess);
-            see("is shortened to where the guard begins", excesses().filter(|e| *e > 0.0 && *e < way).count());
-            see("is shortened as far as it may be at once", excesses().filter(|e| *e > way).count());
+            let count = |wanted: &dyn Fn(f32) -> bool| excesses.iter().filter(|excess| wanted(**excess)).count();
+            see("is short enough", count(&|excess| excess <= 0.0));
+            see("is shortened to where the guard begins", count(&|excess| excess > 0.0 && excess < way));
+            see("is shortened as far as it may be at once", count(&|excess| excess > way));
+            cluster_sizes(before, &mut see);
         }
         Kernel::KeepOut => {
             let probe = |i: usize| &before.probes[i];
@@ -129,28 +129,51 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
             see("goes on within the thickness", particles().filter(|i| meets(i) && !deep(*i) && !changed(*i)).count());
         }
         Kernel::WarmStart => {
-            ends(&limit_ends(before), before, after, &mut see);
-            let impulses = || before.limit_impulses[before.colour()].iter().zip(&after.limit_impulses[before.colour()]);
-            see("has no impulse", impulses().filter(|(old, _)| **old == 0.0).count());
-            see("goes on", impulses().filter(|(old, new)| **old > 0.0 && **new == 0.5 * **old).count());
-            see("has no direction any more", impulses().filter(|(old, new)| **old > 0.0 && **new == 0.0).count());
+            see("was given nothing", particles().filter(|i| before.pulls[*i] == Vec3::ZERO && !changed(*i)).count());
+            see("begins with half", particles().filter(|i| before.pulls[*i] != Vec3::ZERO && changed(*i)).count());
         }
-        Kernel::LimitStrands => {
-            let pairs: Vec<_> = before.strand_limits().iter().map(|ends| ends.map(|end| end as usize)).collect();
-            let pinned = |i: usize| weights[i] == 0.0;
-            let either =
-                |wanted: &dyn Fn(usize) -> bool| pairs.iter().filter(|[a, b]| wanted(*a) || wanted(*b)).count();
-            let both = |wanted: &dyn Fn(usize) -> bool| pairs.iter().filter(|[a, b]| wanted(*a) && wanted(*b)).count();
-            see("changes both ends", both(&changed));
-            see("changes neither", both(&|i| !changed(i) && !pinned(i)));
-            see("has a pinned end", either(&pinned));
-            see("has both ends pinned", both(&pinned));
-            see("has an end that is no number", either(&|i| positions[i].is_nan()));
-            assert_eq!(both(&|i| pinned(i) && changed(i)), 0, "pins stay");
-            let strands = before.colour_strands();
-            see("has one level", strands.iter().filter(|s| s.level_count == 1).count());
-            see("has many levels", strands.iter().filter(|s| s.level_count > 3).count());
-            see("is longer than a workgroup", strands.iter().filter(|s| s.particles.len() > 64).count());
+        Kernel::LeadLevel => {
+            let count = before.model.positions.len() as u32;
+            let leaders = |node: u32| before.model.leaders.row(node as usize).len();
+            see("is a particle", before.span.clone().filter(|node| *node < count).count());
+            see("is a coarse particle", before.span.clone().filter(|node| *node >= count).count());
+            let pinned = |node: &u32| weights[before.model.site(*node) as usize] == 0.0;
+            see("is where a pin is", before.span.clone().filter(|node| pinned(node) && leaders(*node) > 0).count());
+            see("is led by none", before.span.clone().filter(|node| leaders(*node) == 0).count());
+            see("is led by several", before.span.clone().filter(|node| leaders(*node) > 1).count());
+        }
+        Kernel::ShiftVelocities => {
+            see("is shifted", particles().filter(|i| changed(*i)).count());
+            see("stays", particles().filter(|i| before.nodes.shifts[*i] == Vec3::ZERO && !changed(*i)).count());
+        }
+        Kernel::LimitLevel => {
+            let weight = |node: u32| before.nodes.inverse_masses[node as usize];
+            let shifted = |node: u32| before.nodes.shifts[node as usize] != after.nodes.shifts[node as usize];
+            let lost = |node: u32| before.nodes.places[node as usize].is_nan();
+            let pairs =
+                || before.span.clone().map(|k| before.model.clusters[k as usize].nodes).map(|[a, b, ..]| [a, b]);
+            see("shifts both ends", pairs().filter(|[a, b]| shifted(*a) && shifted(*b)).count());
+            see(
+                "shifts neither",
+                pairs().filter(|ends| ends.iter().all(|i| !shifted(*i) && weight(*i) > 0.0 && !lost(*i))).count(),
+            );
+            see("has a pinned end", pairs().filter(|[a, b]| shifted(*a) && weight(*b) == 0.0).count());
+            see("has both ends pinned", pairs().filter(|ends| ends.iter().all(|i| weight(*i) == 0.0)).count());
+            see("has an end that is no number", pairs().filter(|ends| ends.iter().any(|i| lost(*i))).count());
+            assert_eq!(pairs().flatten().filter(|i| weight(*i) == 0.0 && shifted(*i)).count(), 0, "pins stay");
+            cluster_sizes(before, &mut see);
+        }
+        Kernel::LimitSmallLevels => {
+            let nodes = || before.model.levels.iter().flat_map(|level| level.nodes.clone());
+            let led = |node: &u32| !before.model.leaders.row(*node as usize).is_empty();
+            let moved = |node: &u32| after.nodes.shifts[*node as usize] != Vec3::ZERO;
+            let count = before.model.positions.len() as u32;
+            see(
+                "moves a coarse particle that none leads",
+                nodes().filter(|n| *n >= count && !led(n) && moved(n)).count(),
+            );
+            see("leads a particle on", nodes().filter(|n| *n < count && led(n) && moved(n)).count());
+            see("leaves a node where it is", nodes().filter(|n| !moved(n)).count());
         }
         Kernel::LimitAttachments => {
             let attached = |i: &usize| !before.model.attachments.row(*i).is_empty();
@@ -253,6 +276,14 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
         }
         // The saboteurs change each line of every kernel, and so tell of the others that the input reaches it.
         _ => {}
+    }
+}
+
+/// Whether clusters of all sizes are there.
+fn cluster_sizes(before: &Input, see: &mut impl FnMut(&'static str, usize)) {
+    let missing = |k: u32| before.model.clusters[k as usize].nodes.iter().filter(|node| **node == NO_CORNER).count();
+    for (count, branch) in ["has four nodes", "has three nodes", "has two nodes"].into_iter().enumerate() {
+        see(branch, before.span.clone().filter(|k| missing(*k) == count).count());
     }
 }
 

@@ -84,7 +84,7 @@ impl Life {
         arrived("the status of a frame", || self.solver.status().filter(|status| status.step == step))
     }
 
-    /// Where positions, velocities, impulses of limits or contacts differ.
+    /// Where positions, velocities, what limits gave or contacts differ.
     pub fn difference(&self) -> Option<String> {
         let device = [self.solver.positions(), self.solver.velocities()].map(|buffer| vec3_words(&gpu().vec3s(buffer)));
         let reference = [self.reference.positions(), self.reference.velocities()].map(vec3_words);
@@ -93,12 +93,10 @@ impl Life {
                 return Some(format!("{name}: {difference}"));
             }
         }
-        if let Some(buffer) = self.solver.limit_impulses() {
-            // The buffer is filled up to a whole vec4.
-            let device = &gpu().words(buffer)[..self.reference.limit_impulses().len()];
-            let reference: Vec<u32> = self.reference.limit_impulses().iter().map(|impulse| impulse.to_bits()).collect();
-            if let Some(difference) = first_beyond(device, &reference) {
-                return Some(format!("impulses of limits: {difference}"));
+        if let Some(buffer) = self.solver.pulls() {
+            let device = vec3_words(&gpu().vec3s(buffer));
+            if let Some(difference) = first_beyond(&device, &vec3_words(self.reference.pulls())) {
+                return Some(format!("what limits gave: {difference}"));
             }
         }
         // The directional rule asks for contacts even where there is nothing to touch.

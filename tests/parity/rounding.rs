@@ -5,7 +5,7 @@ use glam::{Vec2, Vec3, vec3};
 use toile_kernels::Kernel;
 use toile_lab::Random;
 use toile_lab::kernels::{Compiled, Input, Variant};
-use toile_model::Strand;
+use toile_model::{CLUSTER_PAIRS, Cluster, NO_CORNER};
 use toile_workspace::gpu;
 
 fn agrees(kernel: Kernel, input: Input) {
@@ -42,38 +42,34 @@ fn ways_over_the_corners_of_texels_agree() {
     agrees(Kernel::SampleSides, dive_through_corners());
 }
 
-/// Strands like those of worn cloth: almost straight, a little too long, and of uneven masses.
-fn worn_strands() -> Input {
-    const COUNT: u32 = 9;
-    let mut input = input(Kernel::LimitStrands, 200, Variant::Coulomb);
+/// Clusters like those of worn cloth: almost flat, a little too long, and of uneven masses.
+fn worn_clusters() -> Input {
+    let mut input = input(Kernel::LimitLevel, 500, Variant::Coulomb);
     let random = &mut Random::new(2);
-    let count = COUNT * input.span.len() as u32;
-    let first = input.span.start;
-    input.particles.velocities.fill(Vec3::ZERO);
-    input.model.strand_particles = (0..count).collect();
-    input.model.strand_lengths.clear();
-    input.model.strands = (0..input.span.end)
-        .map(|k| {
-            let start = k.saturating_sub(first) * COUNT;
-            let lengths = input.model.strand_lengths.len() as u32;
-            for level in 0..4 {
-                let reach = 1 << level;
-                input.model.strand_lengths.extend((reach..COUNT).map(|_| 0.03 * reach as f32));
+    input.nodes.shifts.fill(Vec3::ZERO);
+    input.nodes.inverse_masses.iter_mut().for_each(|weight| *weight = random.between(5e3, 15e3));
+    for cluster in input.span.clone().map(|cluster| cluster as usize) {
+        for (node, corner) in
+            input.model.clusters[cluster].nodes.into_iter().zip([[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]])
+        {
+            if node != NO_CORNER {
+                let place = vec3(0.0303 * corner[0], 0.9 + 0.0303 * corner[1], -0.1);
+                input.nodes.places[node as usize] = place + random.vector(0.002);
             }
-            Strand { particles: start..start + COUNT, stride: 1, lengths, level_count: 4 }
-        })
-        .collect();
-    for i in 0..count as usize {
-        let along = 0.0303 * (i % COUNT as usize) as f32;
-        input.particles.positions[i] = vec3(along, 0.9, -0.1) + random.vector(0.002);
-        input.particles.inverse_masses[i] = random.between(5e3, 15e3);
+        }
+        let Cluster { nodes, max_lengths } = &mut input.model.clusters[cluster];
+        for ((length, pair), wanted) in
+            max_lengths.iter_mut().zip(CLUSTER_PAIRS).zip([0.0424, 0.0424, 0.03, 0.03, 0.03, 0.03])
+        {
+            *length = if pair.iter().any(|corner| nodes[*corner] == NO_CORNER) { f32::INFINITY } else { wanted };
+        }
     }
     input
 }
 
 #[test]
-fn strands_of_worn_cloth_agree() {
-    agrees(Kernel::LimitStrands, worn_strands());
+fn clusters_of_worn_cloth_agree() {
+    agrees(Kernel::LimitLevel, worn_clusters());
 }
 
 /// Pairs of a seam that lie on one another and part so slowly that the squares of their ways are denormal numbers, or nothing.

@@ -47,6 +47,19 @@ fn a_sheet_on_a_sphere_agrees_under_every_rule_and_both_friction_laws() {
 }
 
 #[test]
+fn a_sheet_of_several_levels_agrees() {
+    for (name, n) in [("hang", "16"), ("hang", "40"), ("ball", "17")] {
+        let lower = if name == "ball" { vec![("sheet.0.corner", "[-0.5, 0.256, 0.5]")] } else { Vec::new() };
+        let sheet = scene(name, &[vec![("n", n)], lower].concat());
+        let model = sheet_model(&sheet);
+        assert!(model.levels.len() > 1, "the sheet has levels");
+        let mut life = Life::new(&model, &StepSettings::new(&sheet.settings, &model), None, shapes(&sheet));
+        let status = life.agree(&format!("{name} {n}"), 20);
+        assert!(status.elongation_max > 0.0, "the sheet is stretched");
+    }
+}
+
+#[test]
 fn a_sheet_that_its_guard_holds_agrees() {
     // One sweep leaves enough to the guard that each of its passes matters.
     let hard = [("n", "17"), ("sweeps", "1"), ("gravity", "[0, -400, 0]"), ("sheet.0.corner", "[-0.5, 0.256, 0.5]")];

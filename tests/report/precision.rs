@@ -74,7 +74,7 @@ fn a_power_law_is_found_again() {
 
 #[test]
 fn a_cost_is_counted_in_copies_that_the_clock_can_see() {
-    let cost = StepCost { kernels: vec![("euler", 1, 0.5), ("limit_strands", 16, 2.5)], state_copy: 0.25 };
+    let cost = StepCost { kernels: vec![("euler", 1, 0.5), ("limit_level", 16, 2.5)], state_copy: 0.25 };
     assert_eq!(cost.copies(), Some(12.0));
     assert_eq!(StepCost { state_copy: 0.0, ..cost }.copies(), None, "nothing is divided by zero");
 }

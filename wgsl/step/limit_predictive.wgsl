@@ -1,5 +1,5 @@
 // Rule Predictive: what would make a spring over-long in the coming move is removed from the velocities of its ends, by
-// inverse mass. What a limit has pulled in the step it may take back, and no more: it never pushes. One colour per dispatch.
+// inverse mass, and kept for the start of the next step. One colour per dispatch.
 #import shared/item
 #import shared/step_params
 #import shared/span
@@ -7,7 +7,7 @@
 #import shared/pair
 
 @group(0) var<storage, read> limits: array<Limit>;
-@group(0) var<storage, read_write> limit_impulses: array<f32>;
+@group(0) var<storage, read_write> pulls: array<vec4<f32>>;
 
 @compute @workgroup_size(64)
 fn limit_predictive(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
@@ -22,10 +22,13 @@ fn limit_predictive(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_w
     }
     let predicted = after_move(limit.first, limit.second, step.dt);
     let predicted_length = length(predicted);
-    let pulled = limit_impulses[span.first + i];
-    let pull = max((predicted_length - limit.max_length) / (step.dt * inverse_mass_sum), -pulled);
-    if predicted_length > 0.0 && pull != 0.0 {
-        pull_together(limit.first, limit.second, predicted * (pull / predicted_length));
-        limit_impulses[span.first + i] = pulled + pull;
+    if predicted_length > limit.max_length {
+        let pull = (predicted_length - limit.max_length) / (step.dt * inverse_mass_sum);
+        let impulse = predicted * (pull / predicted_length);
+        pull_together(limit.first, limit.second, impulse);
+        let pulled_first = pulls[limit.first].xyz + impulse * inverse_mass_of(limit.first);
+        let pulled_second = pulls[limit.second].xyz - impulse * inverse_mass_of(limit.second);
+        pulls[limit.first] = vec4<f32>(pulled_first, 0.0);
+        pulls[limit.second] = vec4<f32>(pulled_second, 0.0);
     }
 }

@@ -1,12 +1,10 @@
-// Each limit begins a step with half of the impulse that it ended the last one with: tension that lasts need not be found anew. Limits
-// take it back where it is too much. One colour per dispatch.
+// Each particle begins a step with half of what limits gave it in the last one: tension that lasts need not be found anew.
 #import shared/item
-#import shared/span
-#import struct/Limit
-#import shared/pair
+#import shared/step_params
+#import shared/particles writes velocities
 
-@group(0) var<storage, read> limits: array<Limit>;
-@group(0) var<storage, read_write> limit_impulses: array<f32>;
+// [m/s]
+@group(0) var<storage, read_write> pulls: array<vec4<f32>>;
 
 // The largest part that cannot swing up, however slowly sweeps converge.
 const CARRIED: f32 = 0.5;
@@ -14,20 +12,10 @@ const CARRIED: f32 = 0.5;
 @compute @workgroup_size(64)
 fn warm_start(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
     let i = item_index(id, groups);
-    if i >= span.count {
+    if i >= step.particle_count {
         return;
     }
-    let impulse = CARRIED * limit_impulses[span.first + i];
-    if impulse == 0.0 {
-        return;
-    }
-    let limit = limits[span.first + i];
-    let way = position_of(limit.second) - position_of(limit.first);
-    let way_length = length(way);
-    if way_length > 0.0 {
-        pull_together(limit.first, limit.second, way * (impulse / way_length));
-        limit_impulses[span.first + i] = impulse;
-    } else {
-        limit_impulses[span.first + i] = 0.0;
-    }
+    let pull = pulls[i].xyz * CARRIED;
+    pulls[i] = vec4<f32>(pull, 0.0);
+    set_velocity(i, velocity_of(i) + pull);
 }

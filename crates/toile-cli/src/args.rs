@@ -236,7 +236,7 @@ pub struct PlanOf {
     /// What is worn.
     #[command(flatten)]
     pub outfit: Outfit,
-    /// Draw the flat panels with strands, loose limits and seams.
+    /// Draw the flat panels with the limits of every level and the seams.
     #[arg(long, value_name = "FILE.svg", value_parser = parse_svg)]
     pub picture: Option<PathBuf>,
     /// Print it as JSON, and nothing else.

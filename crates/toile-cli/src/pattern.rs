@@ -8,26 +8,24 @@ mod tests;
 use glam::Vec2;
 use layout::Layout;
 use legend::Counts;
-use std::collections::BTreeSet;
 use std::fmt::{Arguments, Write};
-use toile::model::{Limit, Merge, Model, NO_CORNER, SpringKind, Strand, path_chord};
+use toile::model::{Level, Merge, Model};
 use toile_report::page::escaped;
 
-/// Golden section: the long limits of neighbouring strands do not lie beside each other.
-const SPREAD: f64 = 0.618_034;
+/// Levels with a colour of their own; those that are coarser have that of the last.
+const LEVEL_CLASSES: usize = 5;
 
 const STYLE: &str = "\
 text{font:13px system-ui,sans-serif;fill:#1b1d22}\
 .name{font-weight:600}\
 .number{font-size:11px;fill:#a8327f;stroke:#fff;stroke-width:3px;paint-order:stroke;text-anchor:middle}\
 path{fill:none;stroke-linecap:round;stroke-linejoin:round}\
-.strand{stroke-width:.8}\
-.warp{stroke:#0072b2}\
-.weft{stroke:#c44e00}\
-.diagonal{stroke:#b4bac3}\
-.long{stroke-width:1.8;marker-start:url(#end);marker-end:url(#end)}\
-.long.diagonal{stroke:#7f8793;stroke-width:1.1}\
-.loose{stroke:#00a37a;stroke-width:1.2}\
+.level0{stroke:#ccd0d6;stroke-width:.6}\
+.level1{stroke:#0072b2;stroke-width:.8}\
+.level2{stroke:#00a37a;stroke-width:1.1}\
+.level3{stroke:#c44e00;stroke-width:1.4}\
+.level4{stroke:#7a3fa0;stroke-width:1.8}\
+circle{fill:#fff;stroke-width:1}\
 .attachment{stroke:#d4b020;stroke-width:.4;stroke-opacity:.6}\
 .seam{stroke:#a8327f;stroke-width:2.6}\
 .edge{stroke:#1b1d22;stroke-width:1.4}";
@@ -51,7 +49,7 @@ impl Pattern {
     }
 }
 
-/// The panels of all cloths: strands as lines by direction, one long limit of each, the limits that lie on no strand, those from pins, and the seams.
+/// The panels of all cloths: the limits of every level, the coarse particles between which those of the coarser ones lie, the limits from pins, and the seams.
 pub fn draw(patterns: &[Pattern]) -> String {
     let mut panels = String::new();
     let mut counts = Counts::default();
@@ -64,8 +62,7 @@ pub fn draw(patterns: &[Pattern]) -> String {
     size.y = counts.legend(&mut panels, size.y);
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0} {1:.0}\" width=\"{0:.0}\" height=\"{1:.0}\">\
-         <style>{STYLE}</style><defs><marker id=\"end\" viewBox=\"-2 -2 4 4\" markerWidth=\"3\" markerHeight=\"3\">\
-         <circle r=\"1.2\" fill=\"#1b1d22\"/></marker></defs><rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n{panels}</svg>\n",
+         <style>{STYLE}</style><rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n{panels}</svg>\n",
         size.x, size.y
     )
 }
@@ -85,24 +82,8 @@ impl Drawing<'_> {
             put(self.svg, format_args!("<text class=\"name\" x=\"{x:.1}\" y=\"{y:.1}\">{}</text>\n", escaped(name)));
         }
         counts.attachments += self.attachments();
-        let mut long = Vec::new();
-        // Strands of long lines go over the same line as others that show it from edge to edge.
-        for (strand, index) in cloth.strands.iter().filter(|strand| strand.stride == 1).zip(0..) {
-            let particles = &cloth.strand_particles[strand.particles.start as usize..strand.particles.end as usize];
-            let steps = self.layout.steps(particles);
-            let direction = self.direction(particles, &steps);
-            *counts.strands.entry(direction).or_default() += 1;
-            self.path(&format!("strand {direction}"), &steps);
-            long.push((direction, long_limit(cloth, strand, &steps, index)));
-        }
-        for limit in cloth.loose_limits() {
-            self.path("loose", &self.loose(limit));
-            counts.loose += 1;
-        }
-        // Diagonals below the others, of which there are fewer.
-        long.sort_by_key(|(direction, _)| *direction != "diagonal");
-        for (direction, steps) in long {
-            self.path(&format!("long {direction}"), &steps);
+        for (level, index) in cloth.levels.iter().enumerate().map(|(index, level)| (level, index)) {
+            self.level(level, index, counts);
         }
         for (class, sides) in [("edge", &self.layout.edges), ("seam", &self.layout.seam_sides)] {
             if !sides.is_empty() {
@@ -112,38 +93,31 @@ impl Drawing<'_> {
         counts.seams += self.seam_numbers(counts.seams);
     }
 
-    /// "warp", "weft" or "diagonal": by the springs that a strand lies on, and where it leads.
-    fn direction(&self, particles: &[u32], steps: &[[u32; 2]]) -> &'static str {
-        let springs = &self.pattern.cloth().springs;
-        let ends = [particles[0].min(particles[1]), particles[0].max(particles[1])];
-        let kind = springs.binary_search_by_key(&ends, |spring| spring.ends).map(|k| springs[k].kind);
-        let way: Vec2 = steps.iter().map(|step| self.layout.way(*step).abs()).sum();
-        match kind {
-            Ok(SpringKind::Shear) => "diagonal",
-            _ if way.y > way.x => "warp",
-            _ => "weft",
-        }
-    }
-
-    /// A limit in its panel; where it goes over a seam, to an end of the seam's side and on from it in the other panel.
-    fn loose(&self, limit: &Limit) -> Vec<[u32; 2]> {
-        let Pattern { open, .. } = self.pattern;
+    /// Draws the limits of a level: those of single springs where it is the cloth itself, else those between coarse particles, with these. A limit that goes
+    /// over a seam is drawn where both its ends lie in one panel, else told in the legend alone.
+    fn level(&mut self, level: &Level, index: usize, counts: &mut Counts) {
         let cloth = self.pattern.cloth();
-        let steps = self.layout.steps(&limit.ends);
-        if let [[from, to]] = steps[..] {
-            // Both ends can lie in one panel and the limit go over a dart all the same.
-            let mut quads = open.particle_quads.row(from as usize).iter();
-            if quads.any(|quad| open.quads[*quad as usize].contains(&to)) {
-                return steps;
+        let class = format!("level{}", index.min(LEVEL_CLASSES - 1));
+        let limits = cloth.level_limits(level);
+        for ends in limits.keys() {
+            let steps = self.layout.steps(&ends.map(|node| cloth.site(node)));
+            if !steps.is_empty() {
+                self.path(&class, &steps);
             }
         }
-        let near = |end: u32| -> BTreeSet<u32> {
-            let quads = cloth.particle_quads.row(end as usize).iter().map(|quad| cloth.quads[*quad as usize]);
-            quads.flatten().filter(|corner| *corner != NO_CORNER).collect()
-        };
-        let [a, b] = limit.ends;
-        let ways = near(a).intersection(&near(b)).map(|middle| self.layout.steps(&[a, *middle, b])).collect::<Vec<_>>();
-        ways.into_iter().find(|way| way.len() == 2).unwrap_or_default()
+        if level.is_coarse() {
+            let radius = 1.0 + index as f32;
+            for node in level.nodes.clone() {
+                for place in self.layout.places_of(cloth.site(node)) {
+                    let [x, y] = place.to_array();
+                    put(
+                        self.svg,
+                        format_args!("<circle class=\"{class}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\"/>\n"),
+                    );
+                }
+            }
+        }
+        counts.add_level(index, level.nodes.len(), limits.len());
     }
 
     /// Draws the limits from pins; gives their number.
@@ -191,21 +165,6 @@ impl Drawing<'_> {
             here = Some(step[1]);
         }
         put(self.svg, format_args!("<path class=\"{class}\" d=\"{line}\"/>\n"));
-    }
-}
-
-/// One of the longest limits of a strand, along the strand where it counts the way, in straight chords where it counts distances.
-fn long_limit(cloth: &Model, strand: &Strand, steps: &[[u32; 2]], index: u32) -> Vec<[u32; 2]> {
-    let top = strand.level_count - 1;
-    let reach = 1_usize << top;
-    let first = ((f64::from(index) * SPREAD).fract() * (steps.len() + 1 - reach) as f64) as usize;
-    let length = |level: u32, k: usize| cloth.strand_lengths[strand.lengths_from(level) as usize + k];
-    let way: f32 = (first..first + reach).map(|k| length(0, k)).sum();
-    let along = &steps[first..first + reach];
-    if length(top, first) < way * (1.0 - 1e-5) {
-        along.chunks(path_chord(reach)).map(|chord| [chord[0][0], chord[chord.len() - 1][1]]).collect()
-    } else {
-        along.to_vec()
     }
 }
 

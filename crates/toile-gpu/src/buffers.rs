@@ -178,6 +178,7 @@ impl Contents {
             Per::Quad => u64::from(model.quad_count()),
             Per::Point => particles + u64::from(model.quad_count()),
             Per::Limit => model.limits.len() as u64,
+            Per::Node => particles + model.coarse_particles.len() as u64,
             Per::Workgroup => particles.div_ceil(u64::from(WORKGROUP_SIZE)),
             Per::GrantedPass => plan.granted().count() as u64,
             Per::Listed => 0,

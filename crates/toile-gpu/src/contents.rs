@@ -5,7 +5,8 @@ use encase::{ShaderType, StorageBuffer, UniformBuffer, internal::WriteInto};
 use glam::{Vec3, Vec4};
 use toile_kernels::structs;
 use toile_model::{
-    Attachment, Hold, Limit, Link, MapBox, Model, PinTarget, SeamPair, ShapeStep, SideBox, StepSettings, Strand,
+    Attachment, Cluster, Hold, Leader, Limit, Link, MapBox, Model, PinTarget, SeamPair, ShapeStep, SideBox,
+    StepSettings,
 };
 use toile_scene::{Displacement, Influence, Polish};
 
@@ -24,9 +25,11 @@ pub fn constant(name: &str, model: &Model, settings: &StepSettings, after_maps: 
         "link_others" => words(&model.links.values.iter().map(|link| link.other).collect::<Vec<_>>()),
         "link_springs" => encoded(&model.links.values),
         "limits" => encoded(&model.limits),
-        "strands" => encoded(&model.strands),
-        "strand_particles" => words(&model.strand_particles),
-        "strand_lengths" => floats(&model.strand_lengths),
+        "nodes" => nodes(model),
+        "clusters" => encoded(&model.clusters),
+        "guard_lengths" => bytemuck::cast_slice(&model.guard_lengths).to_vec(),
+        "small_turns" => small_turns(model, settings),
+        "leaders" => encoded(&model.leaders.values),
         "attachment_offsets" => words(&model.attachments.offsets),
         "attachments" => encoded(&model.attachments.values),
         "seam_pairs" => encoded(&model.seam_pairs),
@@ -48,14 +51,51 @@ pub trait Encode {
     fn encode(&self) -> Self::Struct;
 }
 
+fn nodes(model: &Model) -> Vec<u8> {
+    array((0..model.leaders.row_count()).map(|node| structs::Node {
+        site: model.site(node as u32),
+        inverse_mass: match node.checked_sub(model.positions.len()) {
+            Some(coarse) => model.coarse_particles[coarse].inverse_mass,
+            None => model.inverse_masses[node],
+        },
+        first_leader: model.leaders.offsets[node],
+        end_leader: model.leaders.offsets[node + 1],
+    }))
+}
+
+/// The turns of the small levels, from the coarsest on: the nodes of a level begin, then its colours are held.
+fn small_turns(model: &Model, settings: &StepSettings) -> Vec<u8> {
+    let mut turns = Vec::new();
+    let none = structs::SmallTurn { first_node: 0, end_node: 0, first_cluster: 0, end_cluster: 0, relaxation: 0.0 };
+    for level in model.levels.iter().rev().filter(|level| level.is_small()) {
+        let relaxation = StepSettings::relaxation(level);
+        turns.push(structs::SmallTurn { first_node: level.nodes.start, end_node: level.nodes.end, ..none });
+        turns.extend((0..settings.level_passes(level)).flat_map(|_| &level.colours).map(|colour| structs::SmallTurn {
+            first_cluster: colour.start,
+            end_cluster: colour.end,
+            relaxation,
+            ..none
+        }));
+    }
+    array(turns.into_iter())
+}
+
+/// Structs as a storage buffer holds them.
+pub fn array<T>(items: impl Iterator<Item = T>) -> Vec<u8>
+where
+    Vec<T>: ShaderType + WriteInto,
+{
+    let mut buffer = StorageBuffer::new(Vec::new());
+    buffer.write(&items.collect::<Vec<_>>()).expect("a vector grows to what is written");
+    buffer.into_inner()
+}
+
 /// Items as a storage buffer holds them.
 pub fn encoded<T: Encode>(items: &[T]) -> Vec<u8>
 where
     Vec<T::Struct>: ShaderType + WriteInto,
 {
-    let mut buffer = StorageBuffer::new(Vec::new());
-    buffer.write(&items.iter().map(Encode::encode).collect::<Vec<_>>()).expect("a vector grows to what is written");
-    buffer.into_inner()
+    array(items.iter().map(Encode::encode))
 }
 
 /// A struct as a uniform buffer holds it.
@@ -108,12 +148,19 @@ encode! {
         rest_length: limit.rest_length,
         max_length: limit.max_length,
     }
-    |strand: Strand| Strand {
-        first: strand.particles.start,
-        count: strand.particles.end - strand.particles.start,
-        lengths: strand.lengths,
-        level_count: strand.level_count,
+    |cluster: Cluster| Cluster {
+        a: cluster.nodes[0],
+        b: cluster.nodes[1],
+        c: cluster.nodes[2],
+        d: cluster.nodes[3],
+        ab: cluster.max_lengths[0],
+        cd: cluster.max_lengths[1],
+        ac: cluster.max_lengths[2],
+        bd: cluster.max_lengths[3],
+        ad: cluster.max_lengths[4],
+        bc: cluster.max_lengths[5],
     }
+    |leader: Leader| Leader { node: leader.node, part: leader.part }
     |attachment: Attachment| Attachment { pin: attachment.pin, max_length: attachment.max_length }
     |pair: SeamPair| SeamPair { first: pair.ends[0], second: pair.ends[1], closing_speed: pair.closing_speed }
     |hold: Hold| Hold {

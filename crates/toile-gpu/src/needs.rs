@@ -2,7 +2,7 @@
 
 use crate::step_params::{Counts, step_params};
 use toile_kernels::Need;
-use toile_model::{Model, StepSettings};
+use toile_model::{Level, Model, StepSettings};
 use toile_scene::{MapKind, Rule};
 
 /// What the maps show.
@@ -48,7 +48,7 @@ impl<'a> Needs<'a> {
         let hierarchical = Rule::Hierarchical;
         assert!(
             settings.rule != hierarchical || model.rule == hierarchical,
-            "a model has strands only when it was made for the hierarchical rule"
+            "a model has levels only when it was made for the hierarchical rule"
         );
         assert!(
             settings.polish.is_none() || matches!(settings.rule, Rule::Predictive | Rule::Hierarchical),
@@ -81,9 +81,11 @@ impl<'a> Needs<'a> {
             Need::RuleZero => rule == Rule::Zero,
             Need::RuleAverage => rule == Rule::Average,
             Need::RuleDirectional => rule == Rule::Directional,
-            Need::RulePredictive => hierarchical || rule == Rule::Predictive,
+            Need::Pulls => hierarchical || rule == Rule::Predictive,
+            Need::RulePredictive => rule == Rule::Predictive,
             Need::RulePosition => rule == Rule::Position,
-            Need::Strands => hierarchical,
+            Need::Levels => hierarchical,
+            Need::SmallLevels => hierarchical && model.levels.iter().any(Level::is_small),
             Need::Attachments => hierarchical && !model.attachments.values.is_empty(),
             // Seams that are still open would be held apart by single springs that have the last word.
             Need::Guard => hierarchical && !self.hold(Need::Seams),

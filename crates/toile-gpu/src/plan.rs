@@ -5,7 +5,7 @@ use std::fmt;
 use std::ops::Range;
 use toile_kernels::structs::Span;
 use toile_kernels::{Domain, Kernel, Row, Stage, TABLE, WORKGROUP_SIZE};
-use toile_model::{Model, StepSettings};
+use toile_model::{Level, Model, StepSettings};
 
 /// Workgroups along one dimension that every device can dispatch.
 const WORKGROUPS_MAX: u32 = 65_535;
@@ -81,8 +81,15 @@ impl Plan {
         let mut frame = Vec::new();
         let mut sweep: Vec<Pass> = Vec::new();
         for group in rows.chunk_by(|a, b| a.stage == b.stage) {
-            let group_passes: Vec<Pass> =
-                group.iter().flat_map(|row| passes(row, model, settings, &mut spans)).collect();
+            let mut group_passes: Vec<Pass> = Vec::new();
+            for rows in group.chunk_by(|a, b| is_by_level(a) == is_by_level(b)) {
+                // Rows by level take turns, the coarsest level first.
+                let levels = if is_by_level(rows[0]) { model.levels.as_slice() } else { &[Level::default()] };
+                // Small ones have a kernel of their own.
+                for level in levels.iter().rev().filter(|level| !is_by_level(rows[0]) || !level.is_small()) {
+                    group_passes.extend(rows.iter().flat_map(|row| passes(row, model, settings, level, &mut spans)));
+                }
+            }
             match group[0].stage {
                 Stage::Step => step.extend(group_passes),
                 Stage::Sweep => {
@@ -151,8 +158,12 @@ impl Pass {
     }
 }
 
-fn passes(row: &Row, model: &Model, settings: &StepSettings, spans: &mut Vec<Span>) -> Vec<Pass> {
-    let workgroup_per_item = matches!(row.domain, Domain::Hold | Domain::StrandColour);
+fn is_by_level(row: &Row) -> bool {
+    matches!(row.domain, Domain::LevelNode | Domain::LevelCluster)
+}
+
+fn passes(row: &Row, model: &Model, settings: &StepSettings, level: &Level, spans: &mut Vec<Span>) -> Vec<Pass> {
+    let workgroup_per_item = row.domain == Domain::Hold;
     let pass = |items, span| Pass { kernel: row.kernel, items, span, workgroup_per_item, grant: None };
     let all = |count: u32| vec![pass(0..count, None)];
     let mut coloured = |colours: &[Range<u32>], times: u32, share_of: &dyn Fn(u32, u32) -> f32| -> Vec<Pass> {
@@ -173,14 +184,15 @@ fn passes(row: &Row, model: &Model, settings: &StepSettings, spans: &mut Vec<Spa
         Domain::Point => all(model.particle_count() + model.quad_count()),
         Domain::Hold => all(model.holds.len() as u32),
         Domain::Limit => all(model.limits.len() as u32),
-        Domain::LimitColour => {
-            let times = if row.stage == Stage::Sweep { settings.limit_passes() } else { 1 };
-            coloured(&model.limit_colours, times, &whole)
+        Domain::LimitColour => coloured(&model.limit_colours, 1, &whole),
+        Domain::GuardedCluster => {
+            let share = |pass, colour| settings.guard_share(pass, colour);
+            coloured(&model.levels[0].colours, settings.guard_passes, &share)
         }
-        Domain::LimitColourShare => {
-            coloured(&model.limit_colours, settings.guard_passes, &|pass, colour| settings.guard_share(pass, colour))
+        Domain::LevelNode => coloured(std::slice::from_ref(&level.nodes), 1, &whole),
+        Domain::LevelCluster => {
+            coloured(&level.colours, settings.level_passes(level), &|_, _| StepSettings::relaxation(level))
         }
-        Domain::StrandColour => coloured(&model.strand_colours, 1, &whole),
         Domain::SeamPair => all(model.seam_pair_count()),
         Domain::SeamColour => coloured(&model.seam_colours, 1, &whole),
         Domain::Workgroup => all(WORKGROUP_SIZE),

@@ -325,6 +325,10 @@ impl Solver {
             ("contacts", Some(nothing)) => nothing.as_entire_binding(),
             (name, _) => self.buffers.binding(name),
         });
+        if let Some(pulls) = self.buffers.find("pulls") {
+            // They point as the cloth did.
+            encoder.clear_buffer(pulls, 0, None);
+        }
         let [x, y] = Pass::over(Kernel::CarryParticles, self.counts.particles).workgroups();
         let mut compute = encoder.begin_compute_pass(&labelled("a cloth is carried"));
         compute.set_pipeline(program.pipeline());
@@ -466,10 +470,10 @@ impl Solver {
         self.buffers.find("contacts")
     }
 
-    /// What each limit pulled with in the last step [N·s], f32 each, zeros up to a whole vec4; `None` unless the rule is
+    /// What limits gave each particle in the last step [m/s], vec4 each, xyz used; `None` unless the rule is
     /// [`Rule::Predictive`](toile_scene::Rule::Predictive) or [`Rule::Hierarchical`](toile_scene::Rule::Hierarchical).
-    pub fn limit_impulses(&self) -> Option<&wgpu::Buffer> {
-        self.buffers.find("limit_impulses")
+    pub fn pulls(&self) -> Option<&wgpu::Buffer> {
+        self.buffers.find("pulls")
     }
 
     /// Goes on from a state that was written into the buffers of [`Solver::state`]: so many steps are done, and this was reported of them.

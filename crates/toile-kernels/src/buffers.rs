@@ -24,6 +24,8 @@ pub enum Per {
     Point,
     /// A limit.
     Limit,
+    /// A node: a particle or a coarse particle.
+    Node,
     /// The particles of a workgroup.
     Workgroup,
     /// A pass that a polish must grant.
@@ -77,7 +79,7 @@ buffers! {
     "positions" Particle State;
     "velocities" Particle State;
     "contacts" Particle State;
-    "limit_impulses" Limit State;
+    "pulls" Particle State;
     "polish_state" Cloth State;
     "normals" Particle Output;
     "status" Cloth Output;
@@ -93,9 +95,13 @@ buffers! {
     "link_others" Listed Constant;
     "link_springs" Listed Constant;
     "limits" Limit Constant;
-    "strands" Listed Constant;
-    "strand_particles" Listed Constant;
-    "strand_lengths" Listed Constant;
+    "nodes" Node Constant;
+    "clusters" Listed Constant;
+    "guard_lengths" Listed Constant;
+    "small_turns" Listed Constant;
+    "leaders" Listed Constant;
+    "node_places" Node Scratch;
+    "node_shifts" Node Scratch;
     "attachment_offsets" Listed Constant;
     "attachments" Listed Constant;
     "seam_pairs" Listed Constant;

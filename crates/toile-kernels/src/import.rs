@@ -15,12 +15,16 @@ macro_rules! shared {
 
 const SHARED: &[(&str, &str)] = &shared![
     "area",
+    "cluster",
     "crossings",
     "elongation",
+    "hold_cluster",
     "item",
     "layer_box",
     "layer_raster",
     "layer_planes",
+    "lead",
+    "nodes",
     "side_planes",
     "over_long",
     "packed",

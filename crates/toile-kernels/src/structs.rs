@@ -164,16 +164,62 @@ shared_structs! {
         max_length: f32,
     }
 
-    /// A line of cloth and the limits along it.
-    Strand {
-        /// First of its particles.
-        first: u32,
-        /// Number of its particles.
-        count: u32,
-        /// First of its maximum lengths.
-        lengths: u32,
-        /// Number of levels: limits over 1, 2, 4… edges.
-        level_count: u32,
+    /// A particle, or a coarse particle.
+    Node {
+        /// The particle of the cloth where it is.
+        site: u32,
+        /// Of a coarse particle the inverse of the mass that it carries [1/kg].
+        inverse_mass: f32,
+        /// Its leaders.
+        first_leader: u32,
+        /// After them.
+        end_leader: u32,
+    }
+
+    /// Up to four nodes, and the maximum length between each two [m].
+    Cluster {
+        /// A node.
+        a: u32,
+        /// A node.
+        b: u32,
+        /// A node, or none.
+        c: u32,
+        /// A node, or none.
+        d: u32,
+        /// Between a and b.
+        ab: f32,
+        /// Between c and d.
+        cd: f32,
+        /// Between a and c.
+        ac: f32,
+        /// Between b and d.
+        bd: f32,
+        /// Between a and d.
+        ad: f32,
+        /// Between b and c.
+        bc: f32,
+    }
+
+    /// What the workgroup of the small levels does between two barriers: nodes begin, or a colour of clusters is held.
+    SmallTurn {
+        /// Nodes that begin.
+        first_node: u32,
+        /// After them.
+        end_node: u32,
+        /// Clusters that are held.
+        first_cluster: u32,
+        /// After them.
+        end_cluster: u32,
+        /// How much more than its excess a limit takes [1].
+        relaxation: f32,
+    }
+
+    /// A node that leads another.
+    Leader {
+        /// The node.
+        node: u32,
+        /// Part that it has in what the other is moved by [1].
+        part: f32,
     }
 
     /// A maximum distance of a particle from a pin.

@@ -46,10 +46,12 @@ pub enum Domain {
     Limit,
     /// A limit; one dispatch per colour.
     LimitColour,
-    /// A limit; one dispatch per colour and pass of the guard, each with its share of an excess.
-    LimitColourShare,
-    /// A strand, one workgroup each; one dispatch per colour.
-    StrandColour,
+    /// A cluster of the cloth itself; one dispatch per colour and pass of the guard.
+    GuardedCluster,
+    /// A node of a level; one dispatch per level.
+    LevelNode,
+    /// A cluster of a level; one dispatch per colour and pass.
+    LevelCluster,
     /// A seam pair.
     SeamPair,
     /// A seam pair; one dispatch per colour.
@@ -102,11 +104,15 @@ pub enum Need {
     /// Limits under the rule Directional.
     RuleDirectional,
     /// Limits under the rules Predictive and Hierarchical.
+    Pulls,
+    /// Limits under the rule Predictive.
     RulePredictive,
     /// Limits under the rule Position.
     RulePosition,
-    /// Strands, under the rule Hierarchical.
-    Strands,
+    /// Levels, under the rule Hierarchical.
+    Levels,
+    /// The same, and some of them small.
+    SmallLevels,
     /// Limits of a cloth without open seams, under the rule Hierarchical.
     Guard,
     /// The same, and any body.
@@ -193,8 +199,8 @@ kernels! {
     Reaction "step" "reaction" Step Particle Body;
     /// Velocities from forces. W eq. 3.
     Euler "step" "euler" Step Particle Nothing;
-    /// Limits begin with half of the impulses that they ended the last step with.
-    WarmStart "step" "warm_start" Step LimitColour RulePredictive;
+    /// Particles begin with half of what limits gave them in the last step.
+    WarmStart "step" "warm_start" Step Particle Pulls;
     /// Labelled edges keep their mean height while sewing.
     HoldEdges "step" "hold_edges" Step Hold Holds;
     /// Seams close at their speed, as far as cloth and bodies let them, which answer later in the sweep.
@@ -207,9 +213,15 @@ kernels! {
     LimitDirectional "step" "limit_directional" Sweep LimitColour RuleDirectional;
     /// From pins outward, before the limits between neighbours.
     LimitAttachments "step" "limit_attachments" Sweep Particle Attachments;
-    /// The default rule, along lines of cloth.
-    LimitStrands "step" "limit_strands" Sweep StrandColour Strands ["LANES" = 8.0];
-    /// The predictive rule on single springs; under the default rule after the strands.
+    /// The default rule on all small levels, in one workgroup.
+    LimitSmallLevels "step" "limit_small_levels" Sweep Workgroup SmallLevels ["LANES" = 8.0];
+    /// Nodes of a level begin with what those of the coarser level have found. Rows by level take turns, the coarsest level first.
+    LeadLevel "step" "lead_level" Sweep LevelNode Levels;
+    /// The default rule between the nodes of a level.
+    LimitLevel "step" "limit_level" Sweep LevelCluster Levels;
+    /// The particles go where the limits have shifted them.
+    ShiftVelocities "step" "shift_velocities" Sweep Particle Levels;
+    /// The predictive rule on single springs.
     LimitPredictive "step" "limit_predictive" Sweep LimitColour RulePredictive;
     /// Points of the quads that are tested. D §6.
     QuadMidpoints "step" "quad_midpoints" Sweep Quad Body;
@@ -228,7 +240,7 @@ kernels! {
     /// Seams close slowly whatever holds them open; last of all, so that one that a tight fit holds open closes all the same.
     CloseSeams "step" "close_seams" Sweep SeamColour Seams;
     /// No contact leaves a spring stretched far beyond its limit.
-    LimitGuard "step" "limit_guard" AfterSweeps LimitColourShare Guard;
+    LimitGuard "step" "limit_guard" AfterSweeps GuardedCluster Guard;
     /// Cloth gives way into its thickness for it, and no deeper.
     KeepOut "step" "keep_out" AfterSweeps Particle GuardOnBody;
     /// Whether the coming move would stretch a spring beyond the target of a polish.

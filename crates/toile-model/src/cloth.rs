@@ -1,11 +1,15 @@
 //! The arrays of a cloth, open and sewn: springs, limits, colours, seams.
 
 mod assemble;
+mod attachments;
 mod bending;
+mod clusters;
 mod colouring;
 pub(crate) mod digest;
+mod flat_cloth;
+mod flat_spans;
+mod levels;
 mod lines;
-pub(crate) mod long_limits;
 pub(crate) mod model;
 mod open;
 mod seams;

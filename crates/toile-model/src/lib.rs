@@ -12,8 +12,10 @@ mod run;
 mod union_find;
 
 pub use cloth::digest::digest_of;
-pub use cloth::long_limits::{STRAND_PARTICLES_MAX, path_chord};
-pub use cloth::model::{Attachment, Hold, Limit, Link, Merge, Model, PanelMesh, SeamPair, Spring, SpringKind, Strand};
+pub use cloth::model::{
+    Attachment, CLUSTER_PAIRS, Cluster, CoarseParticle, Hold, Leader, Level, Limit, Link, Merge, Model, PanelMesh,
+    SeamPair, Spring, SpringKind,
+};
 pub use csr::Csr;
 pub use error::ModelError;
 pub use fit::axis::Axis;

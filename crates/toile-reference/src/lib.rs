@@ -21,5 +21,5 @@ pub mod step;
 pub use contact::{Contact, Probe};
 pub use exact_distance::{ExactDistance, PenetrationSummary};
 pub use object_space::ObjectSpace;
-pub use particles::{Lag, Midpoints, Particles};
+pub use particles::{Lag, Midpoints, Nodes, Particles};
 pub use reference::{Colliders, Reference};

@@ -28,6 +28,29 @@ impl Particles {
     }
 }
 
+/// The nodes of all levels in a sweep: particles, then coarse particles. The arrays have the shape [node_count].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Nodes {
+    /// Where they would be after the coming move [m].
+    pub places: Vec<Vec3>,
+    /// How far limits have moved those places [m].
+    pub shifts: Vec<Vec3>,
+    /// Inverse masses [1/kg]; 0 where a pin is.
+    pub inverse_masses: Vec<f32>,
+}
+
+impl Nodes {
+    /// So many, nowhere yet.
+    pub fn new(count: usize) -> Self {
+        Self { places: vec![Vec3::ZERO; count], shifts: vec![Vec3::ZERO; count], inverse_masses: vec![0.0; count] }
+    }
+
+    /// Where one is now [m].
+    pub(crate) fn place(&self, index: usize) -> Vec3 {
+        self.places[index] + self.shifts[index]
+    }
+}
+
 /// Means of the corners of each quad or triangle; both arrays have the shape [quad_count].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Midpoints {

@@ -57,6 +57,8 @@ impl Colliders {
 ///     hold_speed: 0.5,
 ///     rule: Rule::Predictive,
 ///     sweeps: 1,
+///     limit_passes: 1,
+///     coarse_passes: 1,
 ///     guard_passes: 2,
 ///     polish: None,
 ///     swept: true,
@@ -76,8 +78,8 @@ pub struct Reference {
     contacts: Vec<Contact>,
     /// What the particles saw in the last sweep, shape [particle_count]; empty without body.
     probes: Vec<Probe>,
-    /// What each limit pulled with in the last step [N·s], shape [limit_count].
-    limit_impulses: Vec<f32>,
+    /// What limits gave each particle in the last step [m/s], shape [particle_count].
+    pulls: Vec<Vec3>,
     polish: PolishState,
     step: u64,
 }
@@ -90,7 +92,7 @@ impl Reference {
             particles: Particles::new(model),
             contacts: vec![Contact::default(); contact_count],
             probes: Vec::new(),
-            limit_impulses: vec![0.0; model.limits.len()],
+            pulls: vec![Vec3::ZERO; model.positions.len()],
             model: model.clone(),
             settings: settings.clone(),
             colliders,
@@ -100,7 +102,7 @@ impl Reference {
     }
 
     /// The handover: the same state in the sewn model, whose particles `merge` makes from those of this one. Contacts,
-    /// impulses of limits and what a polish counts start anew; the number of steps and with it the time go on.
+    /// what limits gave and what a polish counts start anew; the number of steps and with it the time go on.
     pub fn sewn(self, model: &Model, settings: &StepSettings, merge: &Merge) -> Self {
         let mut sewn = Self::new(model, settings, self.colliders);
         frame::merge_particles(&self.particles, &merge.members, &mut sewn.particles);
@@ -120,6 +122,8 @@ impl Reference {
     /// Carries the cloth by the first three rows of a rigid transform, with its velocities and what it touched.
     pub fn carry(&mut self, rows: [Vec4; 3]) {
         frame::carry_particles(&mut self.particles, &mut self.contacts, rows);
+        // They point as the cloth did.
+        self.pulls.fill(Vec3::ZERO);
     }
 
     /// Takes other numbers of a step, from the next one on.
@@ -172,7 +176,7 @@ impl Reference {
             step::reaction(&mut forces, particles, &self.contacts, settings);
         }
         step::euler(&mut particles.velocities, &forces, &particles.inverse_masses, dt);
-        limits::warm_start(particles, model, settings, &mut self.limit_impulses);
+        limits::warm_start(particles, settings, &mut self.pulls);
         if settings.hold_rate > 0.0 {
             step::hold_edges(particles, &model.holds, &model.held_particles, settings);
         }
@@ -200,12 +204,12 @@ impl Reference {
 
     /// One sweep: seams, limits and bodies take their turns, and the seams once more.
     fn sweep(&mut self, lag: Lag) {
-        let Self { model, settings, particles, contacts, limit_impulses, .. } = self;
+        let Self { model, settings, particles, contacts, pulls, .. } = self;
         for colour in &model.seam_colours {
             step::draw_seams(particles, part(&model.seam_pairs, colour), settings.dt);
         }
         let touched = (!contacts.is_empty()).then_some(contacts.as_slice());
-        limits::sweep(particles, model, settings, touched, limit_impulses);
+        limits::sweep(particles, model, settings, touched, pulls);
         if self.colliders.any() {
             self.collide(lag);
         }
@@ -295,10 +299,10 @@ impl Reference {
         &self.contacts
     }
 
-    /// What each limit pulled with in the last step [N·s], shape [limit_count]; zeros unless the rule is [`Rule::Predictive`] or
+    /// What limits gave each particle in the last step [m/s], shape [particle_count]; zeros unless the rule is [`Rule::Predictive`] or
     /// [`Rule::Hierarchical`].
-    pub fn limit_impulses(&self) -> &[f32] {
-        &self.limit_impulses
+    pub fn pulls(&self) -> &[Vec3] {
+        &self.pulls
     }
 
     /// The state as a few rounded numbers, for snapshots that a reviewer can read.

@@ -120,8 +120,7 @@ pub struct VelocityModification {
     /// Which rule.
     pub rule: Rule,
     /// How often the rule goes over all limits in one step; after each time the cloth answers the bodies. `None` is as often as the rule
-    /// and the size of the cloth ask: [`Rule::sweeps`], and once more where the longest limits span 64 cells, as in a sheet of
-    /// 512 × 512 particles.
+    /// is made for: [`Rule::sweeps`].
     pub sweeps: Option<u32>,
     /// Further sweeps in steps that need them; `None` is none. It needs [`Rule::Predictive`] or [`Rule::Hierarchical`].
     pub polish: Option<Polish>,
@@ -195,9 +194,9 @@ impl Rule {
         ("hierarchical", Self::Hierarchical),
     ];
 
-    /// Sweeps per step that the rule is made for: three of hierarchical limits, one of all others.
+    /// Sweeps per step that the rule is made for: two of hierarchical limits, one of all others.
     pub fn sweeps(self) -> u32 {
-        if self == Self::Hierarchical { 3 } else { 1 }
+        if self == Self::Hierarchical { 2 } else { 1 }
     }
 }
 

@@ -283,10 +283,10 @@ impl Cloth {
         self.solver.contacts()
     }
 
-    /// What each limit pulled with in the last step [N·s], f32 each, zeros up to a whole vec4; `None` unless the rule is
+    /// What limits gave each particle in the last step [m/s], vec4 each, xyz used; `None` unless the rule is
     /// [`Rule::Predictive`](toile_scene::Rule::Predictive) or [`Rule::Hierarchical`](toile_scene::Rule::Hierarchical).
-    pub fn limit_impulses(&self) -> Option<&wgpu::Buffer> {
-        self.solver.limit_impulses()
+    pub fn pulls(&self) -> Option<&wgpu::Buffer> {
+        self.solver.pulls()
     }
 
     /// The maps of what it collides with; `None` without any.

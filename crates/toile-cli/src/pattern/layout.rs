@@ -90,6 +90,11 @@ impl Layout {
         particles.windows(2).filter_map(step).collect()
     }
 
+    /// Where a particle of the sewn cloth is [px], once for each particle of the panels that it is.
+    pub(super) fn places_of(&self, particle: u32) -> impl Iterator<Item = Vec2> {
+        self.members.row(particle as usize).iter().map(|member| self.places[*member as usize])
+    }
+
     /// From one particle of the panels to another [px].
     pub(super) fn way(&self, [from, to]: [u32; 2]) -> Vec2 {
         self.places[to as usize] - self.places[from as usize]

@@ -1,6 +1,6 @@
 //! What the lines of the picture mean, and how many there are.
 
-use super::put;
+use super::{LEVEL_CLASSES, put};
 use std::collections::BTreeMap;
 
 /// Distance from one line of the legend to the next [px].
@@ -9,10 +9,8 @@ const LINE: f32 = 20.0;
 /// How many lines of each kind there are.
 #[derive(Debug, Default)]
 pub(super) struct Counts {
-    /// Strands by direction.
-    pub(super) strands: BTreeMap<&'static str, usize>,
-    /// Limits that lie on no strand.
-    pub(super) loose: usize,
+    /// Nodes and limits of each level, by how coarse it is.
+    levels: BTreeMap<usize, [usize; 2]>,
     /// Limits from pins.
     pub(super) attachments: usize,
     /// Seams.
@@ -20,21 +18,29 @@ pub(super) struct Counts {
 }
 
 impl Counts {
+    /// Adds a level of a cloth.
+    pub(super) fn add_level(&mut self, index: usize, node_count: usize, limit_count: usize) {
+        let [nodes, limits] = self.levels.entry(index).or_default();
+        *nodes += node_count;
+        *limits += limit_count;
+    }
+
     /// Writes the legend below `top` [px]; gives where it ends.
     pub(super) fn legend(&self, svg: &mut String, top: f32) -> f32 {
-        let strand = |direction: &str| self.strands.get(direction).copied().unwrap_or(0);
-        let all: usize = self.strands.values().sum();
-        let rows = [
-            ("strand warp", strand("warp"), "strands along the warp: limits over 2, 4, 8… edges"),
-            ("strand weft", strand("weft"), "strands along the weft"),
-            ("strand diagonal", strand("diagonal"), "strands along diagonals"),
-            ("long warp", all, "long limits, one of each strand"),
-            ("loose", self.loose, "limits of single springs that lie on no strand"),
+        let levels = self.levels.iter().map(|(index, [nodes, limits])| {
+            let what = match index {
+                0 => "limits of single springs".to_owned(),
+                _ => format!("limits between {nodes} coarse particles"),
+            };
+            (format!("level{}", index.min(&(LEVEL_CLASSES - 1))), *limits, what)
+        });
+        let others = [
             ("attachment", self.attachments, "limits of the distance from a pin"),
             ("seam", self.seams, "seams; both sides of one have its number"),
         ];
+        let others = others.map(|(class, count, what)| (class.to_owned(), count, what.to_owned()));
         let mut y = top;
-        for (class, count, what) in rows.into_iter().filter(|(_, count, _)| *count > 0) {
+        for (class, count, what) in levels.chain(others).filter(|(_, count, _)| *count > 0) {
             // A rectangle, so that the lines of the panels can be counted.
             put(
                 svg,

@@ -1,7 +1,7 @@
-use super::{Drawing, Layout, Pattern, draw};
+use super::{Layout, Pattern, draw};
 use glam::{DVec2, DVec3};
 use toile::files::parse_garment;
-use toile::model::{Merge, Model};
+use toile::model::{Level, Merge, Model};
 use toile::scene::{Fabric, Pin, Settings, Sheet};
 
 fn settings() -> Settings {
@@ -17,12 +17,9 @@ fn skirt() -> Pattern {
     Pattern { name: garment.name, open, sewn: Some(sewn), merge }
 }
 
+/// A sheet that hangs on its upper corners.
 fn curtain() -> Pattern {
-    hung(13)
-}
-
-/// A sheet of so many columns that hangs on its upper corners.
-fn hung(columns: u32) -> Pattern {
+    let columns = 13;
     let sheet = Sheet {
         name: "a < b & c".to_owned(),
         columns,
@@ -66,39 +63,28 @@ fn check(pattern: Pattern) {
     }
 }
 
+/// Limits of a level that lie in one panel.
+fn inside(pattern: &Pattern, level: &Level) -> usize {
+    let cloth = pattern.cloth();
+    let layout = Layout::new(pattern, 0.0);
+    let steps = |ends: &[u32; 2]| layout.steps(&ends.map(|node| cloth.site(node)));
+    cloth.level_limits(level).keys().filter(|ends| !steps(ends).is_empty()).count()
+}
+
 #[test]
 fn every_limit_of_a_garment_is_drawn_inside_the_picture() {
     let pattern = skirt();
     let cloth = pattern.cloth();
     let svg = draw(&[skirt()]);
-    let strands = lines(&svg, "strand");
-    let steps: usize = cloth.strands.iter().map(|strand| strand.particles.len() - 1).sum();
-    assert!(cloth.strands.len() > 50 && cloth.loose_limits().count() > 100, "the test sees something");
-    assert_eq!(strands.len(), cloth.strands.len());
-    assert_eq!(step_count(&strands), steps);
-    assert_eq!(lines(&svg, "long").len(), cloth.strands.len());
-    assert_eq!(lines(&svg, "loose").len(), cloth.loose_limits().count());
+    assert!(cloth.levels.len() > 3, "the test sees something");
+    for (level, index) in cloth.levels.iter().zip(0..3) {
+        let drawn = inside(&pattern, level);
+        assert!(2 * drawn > cloth.level_limits(level).len(), "most limits go over no seam");
+        assert_eq!(lines(&svg, &format!("level{index}\"")).len(), drawn);
+    }
     // Two sides of each of nine seams, and the hem; the band is open above.
     assert_eq!(svg.matches("class=\"number\"").count(), 2 * pattern.open.seam_names.len());
     check(pattern);
-}
-
-#[test]
-fn strands_and_loose_limits_go_along_sides_and_diagonals_of_the_panels() {
-    let pattern = skirt();
-    let layout = Layout::new(&pattern, 0.0);
-    let cloth = pattern.cloth();
-    let drawing = Drawing { pattern: &pattern, layout: &layout, svg: &mut String::new() };
-    let strands = cloth.strands.iter().flat_map(|strand| {
-        let particles = strand.particles.start as usize..strand.particles.end as usize;
-        layout.steps(&cloth.strand_particles[particles])
-    });
-    let loose = cloth.loose_limits().flat_map(|limit| drawing.loose(limit));
-    for step in strands.chain(loose) {
-        let mut near = pattern.open.particle_quads.row(step[0] as usize).iter();
-        let inside = near.any(|quad| pattern.open.quads[*quad as usize].contains(&step[1]));
-        assert!(inside, "{step:?} leads over a dart");
-    }
 }
 
 #[test]
@@ -106,30 +92,20 @@ fn a_sheet_shows_what_its_pins_hold() {
     let pattern = curtain();
     let svg = draw(&[curtain()]);
     assert_eq!(lines(&svg, "attachment").len(), 2 * (13 * 9 - 2));
-    assert_eq!(lines(&svg, "strand").len(), pattern.open.strands.len());
-    assert_eq!(lines(&svg, "loose").len(), pattern.open.loose_limits().count());
+    // Warp, weft and both diagonals.
+    assert_eq!(lines(&svg, "level0").len(), 13 * 8 + 12 * 9 + 2 * 12 * 8);
+    // Every second particle of both directions: 7 × 5.
+    assert_eq!(svg.matches("<circle class=\"level1\"").count(), 35);
+    assert_eq!(lines(&svg, "level1").len(), 7 * 4 + 6 * 5 + 2 * 6 * 4);
     assert!(svg.contains("a &lt; b &amp; c"), "a name is no tag");
     assert_eq!(step_count(&lines(&svg, "edge")), 2 * (12 + 8));
     check(pattern);
 }
 
 #[test]
-fn a_line_of_several_strands_is_drawn_once_from_edge_to_edge() {
-    let pattern = hung(600);
-    assert!(pattern.open.strands.iter().any(|strand| strand.stride > 1), "the test sees something");
-    let svg = draw(&[hung(600)]);
-    // Two strands along each row, a gap of an edge between them; one along each column, and the diagonals of eight and seven cells.
-    assert_eq!(step_count(&lines(&svg, "strand weft")), 9 * (600 - 2));
-    assert_eq!(step_count(&lines(&svg, "strand warp")), 600 * 8);
-    assert_eq!(step_count(&lines(&svg, "strand diagonal")), 2 * ((600 - 8) * 8 + 2 * 7));
-    assert_eq!(lines(&svg, "loose").len(), pattern.open.loose_limits().count());
-    check(pattern);
-}
-
-#[test]
 fn cloths_lie_below_one_another() {
     let [one, both] = [draw(&[skirt()]), draw(&[skirt(), curtain()])];
-    for class in ["strand", "loose", "long"] {
+    for class in ["level0", "level1", "level2"] {
         assert_eq!(lines(&both, class)[..lines(&one, class).len()], lines(&one, class), "the first stays where it is");
     }
     check(skirt());

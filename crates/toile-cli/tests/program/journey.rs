@@ -63,7 +63,7 @@ fn a_plan_is_also_a_picture_of_the_limits() {
     assert!(said.ends_with("wrote limits.svg\n"), "{said}");
     let svg = fs::read_to_string(journey.folder.path().join("limits.svg")).expect("a picture");
     assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n"));
-    assert!(svg.matches("<path class=\"strand").count() > 50);
+    assert!(svg.matches("<path class=\"level1").count() > 50);
     let sentence = refused(journey.run(&["plan", "--garment", &skirt, "--picture", "none/limits.svg"]));
     assert!(sentence.starts_with("none/limits.svg"), "{sentence}");
 }

@@ -35,18 +35,18 @@ pub fn answer(kernel: Kernel, input: &mut Input) {
         Kernel::LimitDirectional => {
             step::limit_directional(particles, before.colour_limits(), Some(&before.contacts), settings);
         }
-        Kernel::LimitStrands => {
-            let (line, lengths) = (&before.model.strand_particles, &before.model.strand_lengths);
-            step::limit_strands(particles, before.colour_strands(), line, lengths, dt);
+        Kernel::LimitSmallLevels => {
+            step::limit_small_levels(&mut input.nodes, particles, &before.model, settings);
         }
+        Kernel::LeadLevel => step::lead_level(&mut input.nodes, &before.span, particles, &before.model, dt),
+        Kernel::LimitLevel => step::limit_level(&mut input.nodes, &before.model, &before.span, before.share),
+        Kernel::ShiftVelocities => step::shift_velocities(particles, &before.nodes, &mut input.pulls, dt),
         Kernel::LimitAttachments => step::limit_attachments(particles, &before.model.attachments, dt),
-        Kernel::WarmStart => {
-            step::warm_start(particles, before.colour_limits(), &mut input.limit_impulses[before.colour()]);
-        }
+        Kernel::WarmStart => step::warm_start(particles, &mut input.pulls),
         Kernel::LimitPredictive => {
-            step::limit_predictive(particles, before.colour_limits(), &mut input.limit_impulses[before.colour()], dt);
+            step::limit_predictive(particles, before.colour_limits(), &mut input.pulls, dt);
         }
-        Kernel::LimitGuard => step::limit_guard(particles, before.colour_limits(), before.share, settings),
+        Kernel::LimitGuard => step::limit_guard(particles, &before.model, &before.span, before.share, settings),
         Kernel::KeepOut => step::keep_out(particles, &before.probes[..before.particles.positions.len()], settings),
         Kernel::LimitPosition => step::limit_position(particles, before.colour_limits()),
         Kernel::QuadMidpoints => {

@@ -7,11 +7,11 @@ use glam::{Vec3, Vec4};
 use std::ops::Range;
 use toile::gpu::BodyMaps;
 use toile::gpu::contents::{Encode, constant, encoded, floats, uniform, with_w, words};
-use toile::model::{Csr, Limit, Model, PinTarget, SeamPair, ShapeStep, StepSettings, Strand};
+use toile::model::{Csr, Limit, Model, PinTarget, SeamPair, ShapeStep, StepSettings};
 use toile::scene::{Polish, Pose, Skin};
 use toile_kernels::structs;
 use toile_reference::step::PolishState;
-use toile_reference::{Contact, Lag, Midpoints, Particles, Probe};
+use toile_reference::{Contact, Lag, Midpoints, Nodes, Particles, Probe};
 
 /// Everything a kernel may read or write.
 #[derive(Clone, Debug)]
@@ -34,12 +34,14 @@ pub struct Input {
     pub quad_winds: Vec<Vec3>,
     /// What does not change: springs, limits, seams and cells. Where its particles are at rest does not matter.
     pub model: Model,
-    /// What they pulled with [N·s].
-    pub limit_impulses: Vec<f32>,
+    /// What limits gave the particles [m/s].
+    pub pulls: Vec<Vec3>,
     /// The items of the colour that the dispatch works on.
     pub span: Range<u32>,
-    /// Part of an excess that the guard removes [1].
+    /// Part of its excess, or how much more than that, a limit takes [1].
     pub share: f32,
+    /// Nodes in a sweep.
+    pub nodes: Nodes,
     /// Midpoints of the quads.
     pub midpoints: Midpoints,
     /// Of the particles, then of the quads.
@@ -108,17 +110,6 @@ impl Input {
     /// The limits of the span.
     pub fn colour_limits(&self) -> &[Limit] {
         &self.model.limits[self.colour()]
-    }
-
-    /// The strands of the span.
-    pub fn colour_strands(&self) -> &[Strand] {
-        &self.model.strands[self.colour()]
-    }
-
-    /// The ends of the limits of the strands of the span.
-    pub fn strand_limits(&self) -> Vec<[u32; 2]> {
-        let model = Model { strands: self.colour_strands().to_vec(), ..self.model.clone() };
-        model.strand_limits().map(|(ends, _)| ends).collect()
     }
 
     /// The seam pairs of the span.
@@ -192,7 +183,9 @@ impl Inputs for Input {
             "forces" => with_w(&self.forces, &vec![0.0; self.forces.len()]),
             "quad_winds" => with_w(&self.quad_winds, &vec![0.0; self.quad_winds.len()]),
             "normals" => with_w(&self.normals, &vec![0.0; self.normals.len()]),
-            "limit_impulses" => floats(&self.limit_impulses),
+            "pulls" => padded(&self.pulls, 0.0),
+            "node_places" => with_w(&self.nodes.places, &self.nodes.inverse_masses),
+            "node_shifts" => padded(&self.nodes.shifts, 0.0),
             "midpoints" => {
                 let both = self.midpoints.positions.iter().zip(&self.midpoints.velocities);
                 array(both.map(|(position, velocity)| structs::Midpoint { position: *position, velocity: *velocity }))

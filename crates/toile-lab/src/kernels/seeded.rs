@@ -3,17 +3,18 @@
 use super::input::{Input, Posed};
 use crate::{DrawnMaps, Gpu, Random};
 use glam::{DVec3, Mat4, Quat, Vec3, Vec4, dvec3, vec3};
+use std::ops::Range;
 use toile::gpu::{GpuError, MapSpace, Surface};
 use toile::model::{
-    Attachment, Csr, Hold, Limit, Link, MapBox, Model, NO_CORNER, PinTarget, STRAND_PARTICLES_MAX, SeamPair, ShapeKind,
-    ShapeStep, StepSettings, Strand,
+    Attachment, CLUSTER_PAIRS, Cluster, CoarseParticle, Csr, Hold, Leader, Level, Limit, Link, MapBox, Model,
+    NO_CORNER, PinTarget, SeamPair, ShapeKind, ShapeStep, StepSettings,
 };
 use toile::scene::{
     Displacement, Fabric, Friction, Influence, MapKind, Mesh, Morphs, Polish, Pose, Settings, Skin, Wind,
 };
 use toile_kernels::{Domain, Kernel, TABLE};
 use toile_reference::step::PolishState;
-use toile_reference::{Contact, Lag, Midpoints, Particles, Probe, frame};
+use toile_reference::{Contact, Lag, Midpoints, Nodes, Particles, Probe, frame};
 
 /// What the numbers of a step are: together these lead into every branch that the settings decide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,14 +79,14 @@ impl Seeds {
         let counts = counts(domain, items);
         let settings = step_settings(variant);
         let contacts: Vec<Contact> = (0..counts.particles).map(|_| contact(random)).collect();
-        let mut particles = particles(random, &contacts);
+        let particles = particles(random, &contacts);
         let (mut span, limits, seam_pairs) = pairs(random, &particles, &counts, domain);
-        let (strands, strand_particles, strand_lengths) = strands(random, &particles, &counts, domain);
-        if domain == Domain::StrandColour {
-            span = counts.others..counts.others + items;
-            // Whole paths of the longest strand are pinned.
-            let first = strands[counts.others as usize].particles.start as usize;
-            strand_particles[first..first + 40].iter().for_each(|i| particles.inverse_masses[*i as usize] = 0.0);
+        let levels = levels(random, kernel, &particles, items, settings.dt);
+        match domain {
+            // The first are particles, the others coarse ones.
+            Domain::LevelNode => span = counts.particles - items / 2..counts.particles - items / 2 + items,
+            Domain::LevelCluster | Domain::GuardedCluster => span = BESIDE..BESIDE + items,
+            _ => {}
         }
         let quads = quads(random, &counts);
         let midpoints = Midpoints {
@@ -98,9 +99,9 @@ impl Seeds {
         let moving = matches!(kernel, Kernel::SampleMovingSides | Kernel::SampleMovingLayers);
         let [sides, layers] = if moving { &self.moving } else { &self.still };
         let mut input = Input {
-            // Holds and strands take a whole workgroup.
+            // Holds take a whole workgroup.
             invocations: match domain {
-                Domain::Hold | Domain::StrandColour => 64 * items,
+                Domain::Hold => 64 * items,
                 Domain::Workgroup => 64,
                 _ => items,
             },
@@ -118,7 +119,7 @@ impl Seeds {
             copies: particles.clone(),
             quad_winds: (0..counts.quads).map(|_| random.vector(0.02)).collect(),
             forces: (0..counts.particles).map(|i| force(random, i, &contacts[i as usize])).collect(),
-            limit_impulses: limit_impulses(random, &particles, &limits, settings.dt),
+            pulls: pulls(&mut Random::new(!self.seed ^ u64::from(items) ^ 1), counts.particles),
             model: Model {
                 positions: particles.positions.clone(),
                 masses: particles.masses.clone(),
@@ -127,16 +128,20 @@ impl Seeds {
                 particle_quads: particle_quads(random, &counts),
                 limits,
                 seam_pairs,
-                strands,
-                strand_particles,
-                strand_lengths,
+                inverse_masses: particles.inverse_masses.clone(),
+                coarse_particles: levels.coarse_particles,
+                levels: levels.levels,
+                guard_lengths: levels.clusters.iter().map(|cluster| cluster.max_lengths).collect(),
+                clusters: levels.clusters,
+                leaders: levels.leaders,
                 holds,
                 held_particles,
                 quads,
                 ..Model::default()
             },
             span,
-            share: if variant == Variant::Weightless { 1.0 } else { 0.5 },
+            nodes: levels.nodes,
+            share: if variant == Variant::Weightless { 1.0 } else { 1.5 },
             midpoints,
             probes: (0..counts.particles + counts.quads).map(|_| probe(random)).collect(),
             contacts,
@@ -267,12 +272,14 @@ fn counts(domain: Domain, items: u32) -> Counts {
         Domain::Hold => Counts { particles: 4 * items + 200, holds: items, ..none },
         // Kernels over all pairs take the length of the array; those over a colour take its span.
         Domain::Limit | Domain::SeamPair => Counts { particles: 2 * items + 4, pairs: items, others: 0, ..none },
-        Domain::LimitColour | Domain::LimitColourShare | Domain::SeamColour => {
+        Domain::LimitColour | Domain::SeamColour => {
             Counts { particles: 2 * items + 4, pairs: items, others: 2, ..none }
         }
-        Domain::StrandColour => Counts { particles: 8 * items + STRAND_PARTICLES_MAX, others: 2, ..none },
+        Domain::LevelNode => none,
+        Domain::LevelCluster => Counts { particles: 2 * items + 4, ..none },
+        Domain::GuardedCluster => Counts { particles: 4 * items + 4, ..none },
         Domain::Pin => Counts { particles: 2 * items, ..none },
-        Domain::Workgroup => Counts { partials: items, ..none },
+        Domain::Workgroup => Counts { partials: items, particles: items + 8, ..none },
         Domain::Vertex => Counts { particles: 1, ..none },
         Domain::TrianglePart | Domain::Column => panic!("maps are drawn of whole bodies"),
     }
@@ -391,41 +398,135 @@ fn links(random: &mut Random, particles: u32) -> Csr<Link> {
     }))
 }
 
-/// Disjoint strands of a few particles, and one along which a workgroup has more paths to hold at once than invocations, with others
-/// before and after the span of the colour.
-fn strands(
-    random: &mut Random,
-    particles: &Particles,
-    counts: &Counts,
-    domain: Domain,
-) -> (Vec<Strand>, Vec<u32>, Vec<f32>) {
-    let (mut strands, mut line, mut lengths) = (Vec::new(), Vec::new(), Vec::new());
-    if domain != Domain::StrandColour {
-        return (strands, line, lengths);
+/// Nodes or clusters beside those of a level or colour, on both sides.
+const BESIDE: u32 = 2;
+
+/// Levels above a cloth.
+#[derive(Default)]
+struct Levels {
+    nodes: Nodes,
+    leaders: Csr<Leader>,
+    coarse_particles: Vec<CoarseParticle>,
+    levels: Vec<Level>,
+    clusters: Vec<Cluster>,
+}
+
+/// Coarse particles beside the cloth, the last eight of which lead all others and the cloth; disjoint clusters, with others before and after the span of
+/// the colour. Small levels are three, of two colours each. Nothing where a kernel reads none.
+fn levels(random: &mut Random, kernel: Kernel, particles: &Particles, items: u32, dt: f32) -> Levels {
+    let mut levels = Levels::default();
+    let particle_count = particles.positions.len() as u32;
+    let coarse_count = match kernel {
+        Kernel::LeadLevel => BESIDE + items + 8,
+        Kernel::LimitLevel => 2 * items,
+        Kernel::LimitSmallLevels => items / 2 + 16,
+        Kernel::ShiftVelocities => 8,
+        Kernel::LimitGuard => 0,
+        _ => return levels,
+    };
+    for _ in 0..coarse_count {
+        let inverse_mass = random.between(100.0, 5000.0);
+        levels.coarse_particles.push(CoarseParticle { site: random.below(particle_count), inverse_mass });
     }
-    let order = random.shuffled(counts.particles);
-    let mut taken = 0;
-    let count = counts.particles - STRAND_PARTICLES_MAX;
-    for k in 0..count / 8 + 2 * counts.others {
-        let inside = (counts.others..counts.others + count / 8).contains(&k);
-        let wanted = if k == counts.others { STRAND_PARTICLES_MAX } else { 2 + random.below(6) };
-        let first = if inside { taken } else { 0 };
-        taken += if inside { wanted } else { 0 };
-        let start = line.len() as u32;
-        line.extend(&order[first as usize..(first + wanted) as usize]);
-        let mut strand =
-            Strand { particles: start..start + wanted, stride: 1, lengths: lengths.len() as u32, level_count: 0 };
-        while 1 << strand.level_count < wanted {
-            let ends = line[start as usize..].iter().zip(&line[start as usize + (1 << strand.level_count)..]);
-            lengths.extend(ends.map(|(a, b): (&u32, &u32)| {
-                let distance = particles.positions[*a as usize].distance(particles.positions[*b as usize]);
-                if distance > 0.0 { distance * random.between(0.9, 1.3) } else { 0.1 }
-            }));
-            strand.level_count += 1;
+    let node_count = particle_count + coarse_count;
+    for k in 0..node_count {
+        let weight = if k % 7 == 3 || k % 11 == 4 { 0.0 } else { random.between(100.0, 5000.0) };
+        levels.nodes.inverse_masses.push(weight);
+        let place = if random.one_in(60) { Vec3::splat(f32::NAN) } else { random.vector(0.6) };
+        levels.nodes.places.push(place);
+        levels.nodes.shifts.push(if random.one_in(3) { Vec3::ZERO } else { random.vector(0.05) });
+    }
+    let coarsest = node_count - 8;
+    match kernel {
+        Kernel::LeadLevel | Kernel::ShiftVelocities => {
+            levels.leaders = Csr::from_rows((0..node_count).map(|_| leaders(random, coarsest..node_count)));
         }
-        strands.push(strand);
+        Kernel::LimitSmallLevels => {
+            let borders = [0, particle_count, coarsest, node_count];
+            let row = |node| {
+                let above = borders.iter().position(|border| node < *border).expect("it is a node");
+                if above == 3 { Vec::new() } else { leaders(random, borders[above]..borders[above + 1]) }
+            };
+            levels.leaders = Csr::from_rows((0..node_count).map(row).collect::<Vec<_>>());
+            for level in borders.windows(2) {
+                levels.add_level(random, level[0]..level[1], particles, dt);
+            }
+        }
+        _ => {
+            let order = random.shuffled(node_count);
+            for k in 0..items + 2 * BESIDE {
+                let inside = (BESIDE..BESIDE + items).contains(&k);
+                // Those of other colours may share nodes: nothing may touch them.
+                let first = if inside { 4 * (k - BESIDE) as usize } else { 0 };
+                let place = |node: usize| match kernel {
+                    Kernel::LimitGuard => particles.positions[node] + particles.velocities[node] * dt,
+                    _ => levels.nodes.places[node] + levels.nodes.shifts[node],
+                };
+                let cluster = cluster(random, &order[first..first + 4], place);
+                levels.clusters.push(cluster);
+            }
+        }
     }
-    (strands, line, lengths)
+    levels
+}
+
+impl Levels {
+    /// Clusters of two colours between the nodes of a level, about as far apart as the cloth where they are.
+    fn add_level(&mut self, random: &mut Random, nodes: Range<u32>, particles: &Particles, dt: f32) {
+        let first = nodes.start;
+        let particle_count = particles.positions.len();
+        let mut colours = Vec::new();
+        for _ in 0..2 {
+            let order = random.shuffled(nodes.end - first);
+            let start = self.clusters.len() as u32;
+            for corners in order.chunks_exact(4) {
+                let place = |node: usize| {
+                    let coarse = node.checked_sub(particle_count);
+                    let site = coarse.map_or(node, |coarse| self.coarse_particles[coarse].site as usize);
+                    particles.positions[site] + particles.velocities[site] * dt
+                };
+                let corners: Vec<u32> = corners.iter().map(|corner| first + corner).collect();
+                let cluster = cluster(random, &corners, place);
+                self.clusters.push(cluster);
+            }
+            colours.push(start..self.clusters.len() as u32);
+        }
+        self.levels.push(Level { nodes, colours });
+    }
+}
+
+/// None to four of some nodes, with parts.
+fn leaders(random: &mut Random, among: Range<u32>) -> Vec<Leader> {
+    let count = random.below(5);
+    let node = |random: &mut Random| among.start + random.below(among.end - among.start);
+    (0..count).map(|_| Leader { node: node(random), part: random.between(0.1, 0.9) }).collect()
+}
+
+/// A cluster of two to four nodes, and lengths a little more or less than how far their places are apart.
+fn cluster(random: &mut Random, corners: &[u32], place: impl Fn(usize) -> Vec3) -> Cluster {
+    let mut nodes = [0, 1, 2, 3].map(|corner| corners[corner]);
+    nodes[2 + random.below(3) as usize..].fill(NO_CORNER);
+    let max_lengths = CLUSTER_PAIRS.map(|pair| {
+        let ends = pair.map(|corner| nodes[corner]);
+        if ends.contains(&NO_CORNER) || random.one_in(7) {
+            return f32::INFINITY;
+        }
+        let [a, b] = ends.map(|end| place(end as usize));
+        let distance = a.distance(b);
+        match random.below(9) {
+            // Exactly as long as it may be, and a hair too long.
+            0 if distance > 0.0 => distance,
+            1 if distance > 0.0 => distance - 1e-4,
+            _ if distance > 0.0 => distance * random.between(0.7, 1.3),
+            _ => 0.1,
+        }
+    });
+    Cluster { nodes, max_lengths }
+}
+
+/// Nothing, or some.
+fn pulls(random: &mut Random, count: u32) -> Vec<Vec3> {
+    (0..count).map(|_| if random.one_in(3) { Vec3::ZERO } else { random.vector(0.4) }).collect()
 }
 
 /// Distances from other particles, a little more or less than they are.
@@ -450,10 +551,7 @@ fn pairs(
     domain: Domain,
 ) -> (std::ops::Range<u32>, Vec<Limit>, Vec<SeamPair>) {
     let order = random.shuffled(counts.particles);
-    let count = if matches!(
-        domain,
-        Domain::Limit | Domain::LimitColour | Domain::LimitColourShare | Domain::SeamPair | Domain::SeamColour
-    ) {
+    let count = if matches!(domain, Domain::Limit | Domain::LimitColour | Domain::SeamPair | Domain::SeamColour) {
         counts.pairs
     } else {
         0
@@ -485,17 +583,6 @@ fn pairs(
         seam_pairs.push(SeamPair { ends, closing_speed, seam: 0 });
     }
     (counts.others..counts.others + count, limits, seam_pairs)
-}
-
-/// Nothing, or what would stop ends that are a little too fast: next to what the limit lacks it is small or large.
-fn limit_impulses(random: &mut Random, particles: &Particles, limits: &[Limit], dt: f32) -> Vec<f32> {
-    let mean_mass = particles.masses.iter().sum::<f32>() / particles.masses.len() as f32;
-    let impulse = |limit: &Limit| match random.below(3) {
-        0 => 0.0,
-        1 => mean_mass * limit.rest_length / dt * random.between(0.0, 0.1),
-        _ => mean_mass * limit.rest_length / dt * random.between(0.5, 2.0),
-    };
-    limits.iter().map(impulse).collect()
 }
 
 /// Holds of one to a few particles, and some of more than a workgroup has invocations.

@@ -18,11 +18,13 @@ impl Model {
         floats(&mut self.inverse_masses.iter().copied());
         floats(&mut self.links.values.iter().flat_map(|link| [link.rest_length, link.stiffness]));
         floats(&mut self.limits.iter().flat_map(|limit| [limit.rest_length, limit.max_length]));
-        floats(&mut self.strand_lengths.iter().copied());
+        floats(&mut self.clusters.iter().flat_map(|cluster| cluster.max_lengths));
+        floats(&mut self.leaders.values.iter().map(|leader| leader.part));
         floats(&mut self.attachments.values.iter().map(|attachment| attachment.max_length));
         words.extend(self.links.offsets.iter().chain(self.links.values.iter().map(|link| &link.other)));
         words.extend(self.limits.iter().flat_map(|limit| limit.ends));
-        words.extend(&self.strand_particles);
+        words.extend(self.clusters.iter().flat_map(|cluster| cluster.nodes));
+        words.extend(self.leaders.values.iter().map(|leader| leader.node));
         words.extend(self.attachments.values.iter().map(|attachment| attachment.pin));
         words.extend(self.seam_pairs.iter().flat_map(|pair| pair.ends));
         words.extend(self.quads.iter().flatten());

@@ -1,33 +1,16 @@
 //! Lines of cloth that go straight on from particle to particle, across closed seams too.
 
+use crate::NO_CORNER;
+use crate::cloth::flat_cloth::Cloth;
 use crate::mesh::elements::{Side, sectors, sides};
 use crate::mesh::fan::opposite_neighbours;
 use crate::mesh::geometry::corners;
-use crate::{Csr, NO_CORNER, PanelMesh};
-use glam::DVec2;
 use std::collections::HashSet;
-use toile_scene::Threshold;
 
 /// A diagonal goes straight on where its direction changes by no more than the angle with this cosine [1].
 const STRAIGHT: f64 = 0.866;
 
 const NONE: u32 = u32::MAX;
-
-/// Flat panels and which of their particles are one.
-pub(crate) struct Cloth<'a> {
-    /// Elements of all panels.
-    pub(crate) elements: &'a [[u32; 4]],
-    /// Panel of each element.
-    pub(crate) panels: Vec<u32>,
-    /// Flat positions [m].
-    pub(crate) flat: &'a [DVec2],
-    /// The particle of the sewn cloth that each particle of the panels is.
-    pub(crate) member_of: &'a [u32],
-    /// Number of particles of the sewn cloth.
-    pub(crate) particle_count: usize,
-    /// Elongation that the fabric allows, by direction.
-    pub(crate) threshold: Threshold,
-}
 
 /// All lines of one kind.
 pub(crate) struct Lines {
@@ -42,18 +25,6 @@ struct Edge {
     ends: [u32; 2],
     /// The same two in their panel.
     flat_ends: [u32; 2],
-    /// `None` where two panels share it.
-    panel: Option<u32>,
-    span: Span,
-}
-
-/// The flat cloth between two particles of a line.
-#[derive(Clone, Copy)]
-pub(crate) struct Span {
-    /// Its length [m].
-    pub(crate) length: f64,
-    /// Elongation that it allows [1].
-    pub(crate) threshold: f64,
 }
 
 /// All edges that go straight on.
@@ -69,32 +40,7 @@ pub(crate) struct Line {
     steps: Vec<Edge>,
 }
 
-impl<'a> Cloth<'a> {
-    /// The panels of an open model, and the particles of the cloth that theirs become.
-    pub(crate) fn new(
-        elements: &'a [[u32; 4]],
-        panels: &[PanelMesh],
-        flat: &'a [DVec2],
-        member_of: &'a [u32],
-        particle_count: usize,
-        threshold: Threshold,
-    ) -> Self {
-        let panels = panels.iter().zip(0..).flat_map(|(mesh, panel)| mesh.quads.clone().map(move |_| panel)).collect();
-        Self { elements, panels, flat, member_of, particle_count, threshold }
-    }
-
-    /// Open sides of the elements of each panel, as flat particles.
-    pub(crate) fn rims(&self) -> Csr<[u32; 2]> {
-        let panel_count = self.panels.iter().max().map_or(0, |last| last + 1);
-        let mut rows = vec![Vec::new(); panel_count as usize];
-        for group in sides(self.elements, |i| i).chunk_by(|a, b| a.ends == b.ends) {
-            if let [side] = group {
-                rows[self.panels[side.element as usize] as usize].push(side.ends);
-            }
-        }
-        Csr::from_rows(rows)
-    }
-
+impl Cloth<'_> {
     /// The lines along the sides of the elements: on a grid warp and weft.
     pub(crate) fn side_lines(&self) -> Lines {
         let sides = sides(self.elements, |i| self.member_of[i as usize]);
@@ -115,7 +61,7 @@ impl<'a> Cloth<'a> {
         Lines { next, edges }
     }
 
-    /// The side that elements share; of two lengths and thresholds the smaller one rules, as for springs.
+    /// The side that elements share.
     fn edge(&self, group: &[Side]) -> Edge {
         let flat_ends = |side: &Side| {
             let element = &self.elements[side.element as usize];
@@ -124,37 +70,20 @@ impl<'a> Cloth<'a> {
             let [a, b] = [loop_[corner], loop_[(corner + 1) % loop_.len()]];
             if self.member_of[a as usize] == side.ends[0] { [a, b] } else { [b, a] }
         };
-        let panel = |side: &Side| self.panels[side.element as usize];
-        let first = panel(&group[0]);
-        Edge {
-            ends: group[0].ends,
-            flat_ends: flat_ends(&group[0]),
-            panel: group.iter().all(|side| panel(side) == first).then_some(first),
-            span: group
-                .iter()
-                .map(|side| self.straight(flat_ends(side)))
-                .reduce(|a, b| Span { length: a.length.min(b.length), threshold: a.threshold.min(b.threshold) })
-                .expect("a side has an element"),
-        }
-    }
-
-    /// Between two particles of a panel.
-    fn straight(&self, flat_ends: [u32; 2]) -> Span {
-        let [a, b] = flat_ends.map(|i| self.flat[i as usize]);
-        Span { length: a.distance(b), threshold: self.threshold.along(b - a) }
+        Edge { ends: group[0].ends, flat_ends: flat_ends(&group[0]) }
     }
 
     /// The lines along the diagonals of the quads; they end at seams.
     pub(crate) fn diagonal_lines(&self) -> Lines {
         let mut edges = Vec::new();
-        for (element, panel) in self.elements.iter().zip(&self.panels) {
+        for element in self.elements {
             let &[a, b, c, d] = element;
             if d == NO_CORNER {
                 continue;
             }
             for flat_ends in [[a, c], [b, d]] {
                 let ends = flat_ends.map(|i| self.member_of[i as usize]);
-                edges.push(Edge { ends, flat_ends, panel: Some(*panel), span: self.straight(flat_ends) });
+                edges.push(Edge { ends, flat_ends });
             }
         }
         let mut leaving = vec![Vec::new(); self.flat.len()];
@@ -264,43 +193,5 @@ impl Chain {
             .map(|less| Self { steps: steps[less..steps.len() - less].to_vec(), is_ring: false })
             .map(|chain| (chain.line(0), chain.steps.len()))
             .find_map(|(line, count)| (line.steps.len() == count).then_some(line))
-    }
-}
-
-impl Cloth<'_> {
-    /// What lies inside the flat panels between a place of a line and the particle so many edges on: the straight line where it stays inside,
-    /// else the way along the line.
-    pub(crate) fn span_from(&self, line: &Line, place: usize, edges: usize, rims: &Csr<[u32; 2]>) -> Span {
-        let steps = &line.steps[place..place + edges];
-        let length: f64 = steps.iter().map(|edge| edge.span.length).sum();
-        let longer: f64 = steps.iter().map(|edge| edge.span.length * edge.span.threshold).sum();
-        let way = Span { length, threshold: longer / length };
-        let panel = steps[0].panel.filter(|panel| steps.iter().all(|edge| edge.panel == Some(*panel)));
-        let Some(panel) = panel else { return way };
-        let flat_ends = [steps[0].flat_ends[0], steps[steps.len() - 1].flat_ends[1]];
-        let is_inside = self.is_inside(panel, flat_ends.map(|i| self.flat[i as usize]), length, rims);
-        if is_inside { self.straight(flat_ends) } else { way }
-    }
-
-    /// Whether the straight line between two points of a panel stays inside, when a way of so many metres does.
-    fn is_inside(&self, panel: u32, [a, b]: [DVec2; 2], way: f64, rims: &Csr<[u32; 2]>) -> bool {
-        if way <= a.distance(b) * (1.0 + 1e-9) {
-            return true;
-        }
-        let middle = a.midpoint(b);
-        let mut crossings = 0;
-        for ends in rims.row(panel as usize) {
-            let [p, q] = ends.map(|i| self.flat[i as usize]);
-            let side = |u: DVec2, v: DVec2, w: DVec2| (v - u).perp_dot(w - u);
-            let crosses = side(a, b, p) * side(a, b, q) < 0.0 && side(p, q, a) * side(p, q, b) < 0.0;
-            if crosses {
-                return false;
-            }
-            if (p.y > middle.y) != (q.y > middle.y) {
-                let x = p.x + (middle.y - p.y) / (q.y - p.y) * (q.x - p.x);
-                crossings += u32::from(x > middle.x);
-            }
-        }
-        crossings % 2 == 1
     }
 }

@@ -24,14 +24,18 @@ pub struct Model {
     pub limits: Vec<Limit>,
     /// Limits of each colour: no two of them share a particle.
     pub limit_colours: Vec<Range<u32>>,
-    /// Lines of cloth with limits along them, sorted by colour. Empty unless the rule is [`Rule::Hierarchical`].
-    pub strands: Vec<Strand>,
-    /// Strands of each colour: no two of them share a particle.
-    pub strand_colours: Vec<Range<u32>>,
-    /// The particles of all strands, one strand after the other.
-    pub strand_particles: Vec<u32>,
-    /// Maximum lengths [m] of the limits of all strands, strand by strand, level by level; as [`Limit::max_length`].
-    pub strand_lengths: Vec<f32>,
+    /// Coarse particles, level by level, the finest level first. Empty unless the rule is [`Rule::Hierarchical`].
+    pub coarse_particles: Vec<CoarseParticle>,
+    /// The cloth itself, then its levels of coarse particles, the finest first. Empty unless the rule is [`Rule::Hierarchical`].
+    pub levels: Vec<Level>,
+    /// Clusters of all levels, level by level, sorted by colour. Each limit of a level lies in one of its clusters at least.
+    pub clusters: Vec<Cluster>,
+    /// The lengths [m] beyond which the guard takes back, of the clusters of the cloth itself: twice as far stretched as limits allow.
+    pub guard_lengths: Vec<[f32; 6]>,
+    /// For each node those of the next coarser level that lead it. What these are moved by in a sweep it is moved by too, each part of it.
+    /// What is pinned does not follow. Shape
+    /// [particle_count + coarse_count] rows; empty for the coarsest level.
+    pub leaders: Csr<Leader>,
     /// For each particle the pins that hold it; shape [particle_count] rows. Empty rows unless the rule is [`Rule::Hierarchical`].
     pub attachments: Csr<Attachment>,
     /// Particles that a seam pulls together, sorted by colour. Empty once merged.
@@ -116,17 +120,48 @@ pub struct Limit {
     pub max_length: f32,
 }
 
-/// A line of cloth that goes straight on, with limits over 1, 2, 4… steps from particle to particle: its levels, from 0 on.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Strand {
-    /// Where its particles stand in [`Model::strand_particles`]: at most 512, none twice.
-    pub particles: Range<u32>,
-    /// Edges of the cloth in a step: 1, or where a line is too long for one strand 2, 4, 8… in the strands of its longest limits.
-    pub stride: u32,
-    /// Where its lengths begin in [`Model::strand_lengths`]; see [`Strand::lengths_from`].
-    pub lengths: u32,
-    /// Levels; at least 1. Limits of the highest span 2^(level_count − 1) steps.
-    pub level_count: u32,
+/// A particle that stands for those around it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CoarseParticle {
+    /// The particle of the cloth where it is.
+    pub site: u32,
+    /// Inverse of the mass that it carries [1/kg]: the part of each node that it leads. So what keeps momentum among coarse particles keeps it
+    /// among those that they lead. Where its site is pinned nothing moves it.
+    pub inverse_mass: f32,
+}
+
+/// Most nodes of a level that is small: those of a coarse sheet of 33 × 33.
+const SMALL_LEVEL_NODES: u32 = 1280;
+
+/// Nodes and the limits between them: the cloth itself, or coarse particles.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Level {
+    /// Its nodes. Of those of the level below no two neighbours.
+    pub nodes: Range<u32>,
+    /// Clusters of each colour in [`Model::clusters`]: no two of them share a node.
+    pub colours: Vec<Range<u32>>,
+}
+
+/// Up to four nodes and the limits between them. A node is a particle, by its index, or a coarse particle, by its index plus particle_count.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cluster {
+    /// The nodes; [`NO_CORNER`] is none.
+    pub nodes: [u32; 4],
+    /// Maximum lengths [m] in the order of [`CLUSTER_PAIRS`], as [`Limit::max_length`]; [`f32::INFINITY`] where there is no limit.
+    pub max_lengths: [f32; 6],
+}
+
+/// The pairs of nodes of a cluster between which limits lie, in the order in which they are held. Of a cell of a grid the diagonals come first:
+/// where cloth whips around, each limit is drawn out again by those after it, and diagonals least by warp and weft.
+pub const CLUSTER_PAIRS: [[usize; 2]; 6] = [[0, 1], [2, 3], [0, 2], [1, 3], [0, 3], [1, 2]];
+
+/// A node that leads another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Leader {
+    /// The node.
+    pub node: u32,
+    /// Part that it has in what the other is moved by [1]. The parts of all leaders of a node sum to 1.
+    pub part: f32,
 }
 
 /// A maximum distance of a particle from a pin.
@@ -178,6 +213,18 @@ pub struct PanelMesh {
 pub struct Merge {
     /// For each particle of the sewn model its members in the open model, ascending.
     pub members: Csr<u32>,
+}
+
+impl Level {
+    /// Whether its nodes are coarse particles.
+    pub fn is_coarse(&self) -> bool {
+        self.nodes.start > 0
+    }
+
+    /// Whether it has so few nodes that one workgroup goes over them faster than dispatches would follow one another.
+    pub fn is_small(&self) -> bool {
+        self.nodes.end - self.nodes.start <= SMALL_LEVEL_NODES
+    }
 }
 
 impl Model {

@@ -1,6 +1,6 @@
 //! The open model: sheets as grids, panels where they are placed, seams not yet closed.
 
-use crate::cloth::lines::Cloth;
+use crate::cloth::flat_cloth::Cloth;
 use crate::cloth::seams::seam_pairs;
 use crate::cloth::soften::step_wanted;
 use crate::cloth::springs::{Role, panel_springs};
@@ -43,7 +43,7 @@ impl Model {
             quads: 0..model.quad_count(),
             worst_angle: 90.0,
         }];
-        model.add_flat_strands(&flat);
+        model.add_flat_levels(&flat);
         if model.rule == Rule::Hierarchical {
             model.attachments = model.attachments(&flat, &pin_groups(sheet));
         }
@@ -89,7 +89,7 @@ impl Model {
         }
         let mut model = Self::from_flat(&flat, &places, quads, settings);
         model.panels = panels;
-        model.add_flat_strands(&flat);
+        model.add_flat_levels(&flat);
         (model.holds, model.held_particles) = holds(garment, &edge_particles, &places);
         (model.seam_pairs, model.seam_names) = seam_pairs(garment, &edge_particles, &model.positions);
         let stiffness = SEAM_STIFFNESS * settings.fabric.structural_stiffness as f32;
@@ -140,12 +140,14 @@ impl Model {
         }
     }
 
-    /// Strands of panels that are not sewn.
-    fn add_flat_strands(&mut self, flat: &[DVec2]) {
+    /// Levels of panels that are not sewn.
+    fn add_flat_levels(&mut self, flat: &[DVec2]) {
         if self.rule == Rule::Hierarchical {
             let member_of: Vec<u32> = (0..flat.len() as u32).collect();
             let quads = self.quads.clone();
-            self.add_strands(&Cloth::new(&quads, &self.panels, flat, &member_of, flat.len(), self.threshold));
+            let panels = self.panels.clone();
+            let cloth = Cloth::new(&quads, &panels, flat, &member_of, flat.len(), self.threshold);
+            self.add_levels(&cloth);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The sewn model: the particles of each seam pair are one.
 
-use crate::cloth::lines::Cloth;
+use crate::cloth::flat_cloth::Cloth;
 use crate::mesh::elements::{Side, sectors, sides};
 use crate::mesh::fan::opposite_neighbours;
 use crate::mesh::flat_mesh::smallest_first;
@@ -46,7 +46,8 @@ impl Model {
         (model.quads, model.panels) = self.sewn_quads(&member_of);
         if self.rule == Rule::Hierarchical {
             let flat: Vec<DVec2> = self.flat.iter().map(|p| p.as_dvec2()).collect();
-            model.add_strands(&Cloth::new(&self.quads, &self.panels, &flat, &member_of, count, self.threshold));
+            let cloth = Cloth::new(&self.quads, &self.panels, &flat, &member_of, count, self.threshold);
+            model.add_levels(&cloth);
         }
         let mut model = model.complete();
         model.add_bending();

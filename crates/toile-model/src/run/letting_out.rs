@@ -1,7 +1,7 @@
 //! Limits of cloth that is too tight to hold them, let out to what it needs.
 
 use crate::cloth::aim;
-use crate::{Limit, Merge, Model};
+use crate::{CLUSTER_PAIRS, Cluster, Limit, Merge, Model};
 use glam::Vec3;
 use std::collections::HashMap;
 
@@ -13,27 +13,33 @@ const ROUNDS: usize = 4;
 pub(crate) struct LetOut {
     /// By how much each limit is longer than its fabric allows [1], shape [limit_count]; empty where none is.
     pub(crate) ratios: Vec<f32>,
-    /// The maximum lengths of limits and strands before [m].
-    before: [Vec<f32>; 2],
+    /// The maximum lengths of limits before [m].
+    limits: Vec<f32>,
+    clusters: Vec<Cluster>,
+    guard_lengths: Vec<[f32; 6]>,
 }
 
 impl LetOut {
     /// Lets the limits of a model out by so much each; what was let out before is taken back first.
     pub(crate) fn apply(&mut self, model: &mut Model, ratios: &[f32]) {
         if !self.ratios.is_empty() {
-            let [limits, strands] = std::mem::take(&mut self.before);
-            model.limits.iter_mut().zip(limits).for_each(|(limit, length)| limit.max_length = length);
-            model.strand_lengths = strands;
-            self.ratios.clear();
+            let before = std::mem::take(self);
+            model.limits.iter_mut().zip(before.limits).for_each(|(limit, length)| limit.max_length = length);
+            model.clusters = before.clusters;
+            model.guard_lengths = before.guard_lengths;
         }
         // A saved state may be of another garment: its digest tells, not its number of limits.
         if ratios.len() != model.limits.len() {
             return;
         }
-        self.before = [model.limits.iter().map(|limit| limit.max_length).collect(), model.strand_lengths.clone()];
-        self.ratios = ratios.to_vec();
+        *self = Self {
+            ratios: ratios.to_vec(),
+            limits: model.limits.iter().map(|limit| limit.max_length).collect(),
+            clusters: model.clusters.clone(),
+            guard_lengths: model.guard_lengths.clone(),
+        };
         model.limits.iter_mut().zip(ratios).for_each(|(limit, ratio)| limit.max_length *= ratio);
-        model.let_strands_out(ratios);
+        model.let_levels_out(ratios);
     }
 }
 
@@ -82,39 +88,36 @@ impl Model {
         threes.filter_map(pair).collect()
     }
 
-    /// Lets the limits along strands out by the mean of the single ones on their way.
-    fn let_strands_out(&mut self, ratios: &[f32]) {
+    /// Lets the limits of all levels out: of the cloth itself by as much as the single ones, between coarse particles by what was needed the most
+    /// around both ends.
+    fn let_levels_out(&mut self, ratios: &[f32]) {
+        let mut ratio_of: HashMap<[u32; 2], f32> =
+            self.limits.iter().zip(ratios).map(|(limit, ratio)| (limit.ends, *ratio)).collect();
         let mut widest = vec![1.0_f32; self.positions.len()];
-        let mut ratio_of = HashMap::new();
-        for (limit, ratio) in self.limits.iter().zip(ratios) {
-            ratio_of.insert(limit.ends, *ratio);
-            for end in limit.ends {
-                widest[end as usize] = widest[end as usize].max(*ratio);
+        for level in self.levels.clone() {
+            let sites = |ends: [u32; 2]| ends.map(|node| self.site(node) as usize);
+            if level.is_coarse() {
+                let between = |ends: [u32; 2]| sites(ends).map(|site| widest[site]).iter().sum::<f32>() / 2.0;
+                ratio_of = self.level_limits(&level).into_keys().map(|ends| (ends, between(ends))).collect();
             }
-        }
-        for strand in &self.strands {
-            let particles = &self.strand_particles[strand.particles.start as usize..strand.particles.end as usize];
-            // The steps of a strand on every second particle are no single limits.
-            let step_ratio = |pair: &[u32]| {
-                let [a, b] = [pair[0].min(pair[1]), pair[0].max(pair[1])];
-                let between = || 0.5 * (widest[a as usize] + widest[b as usize]);
-                ratio_of.get(&[a, b]).copied().unwrap_or_else(between)
-            };
-            let steps: Vec<f32> = particles.windows(2).map(step_ratio).collect();
-            if steps.iter().all(|ratio| *ratio == 1.0) {
-                continue;
+            for (ends, ratio) in &ratio_of {
+                for site in sites(*ends) {
+                    widest[site] = widest[site].max(*ratio);
+                }
             }
-            let first = strand.lengths_from(0) as usize;
-            let own = self.strand_lengths[first..first + steps.len()].to_vec();
-            for level in 0..strand.level_count {
-                let reach = 1 << level;
-                let first = strand.lengths_from(level) as usize;
-                let lengths = &mut self.strand_lengths[first..first + particles.len() - reach];
-                for (place, length) in lengths.iter_mut().enumerate() {
-                    let way = place..place + reach;
-                    let whole: f32 = own[way.clone()].iter().sum();
-                    let longer: f32 = own[way.clone()].iter().zip(&steps[way]).map(|(own, ratio)| own * ratio).sum();
-                    *length *= longer / whole;
+            for index in level.colours.iter().flat_map(|colour| colour.clone()).map(|index| index as usize) {
+                let Cluster { nodes, max_lengths } = &mut self.clusters[index];
+                for (place, pair) in CLUSTER_PAIRS.iter().enumerate() {
+                    let [a, b] = pair.map(|corner| nodes[corner]);
+                    let Some(ratio) = ratio_of.get(&[a.min(b), a.max(b)]).filter(|ratio| **ratio != 1.0) else {
+                        continue;
+                    };
+                    let own = max_lengths[place];
+                    max_lengths[place] = own * ratio;
+                    if let Some(guard) = self.guard_lengths.get_mut(index) {
+                        // Twice as far from the rest length, which stays.
+                        guard[place] += 2.0 * (max_lengths[place] - own);
+                    }
                 }
             }
         }

@@ -1,21 +1,28 @@
 //! The numbers of one step, and the largest step that is stable.
 
 use crate::cloth::aim;
-use crate::{Model, ModelError};
+use crate::{Level, Model, ModelError};
 use glam::Vec3;
 use toile_scene::{Friction, Polish, Rule, Settings, VelocityModification, Wind};
 
-/// Passes over single springs after the strands. Strands of four directions disagree by what single springs are left with, most where cloth
-/// whips or slaps on a body and longer limits are slack.
+/// Passes of a sweep over the limits of single springs, of cloth of at most [`LEVELS_OF_SMALL_CLOTH`] levels; one more for each further level. Where
+/// cloth whips or slaps on a body it becomes taut within a step over several cells, and over the more, the finer it is.
 const LIMIT_PASSES: u32 = 2;
 
-/// Passes over single springs after all sweeps: in one, springs of the first colours get back part of what they lost from those that come
-/// after them. There are as many again for each time that the longest limits double [`CELLS_OF_SMALL_CLOTH`].
+/// Passes over single springs after all sweeps, of cloth of at most [`LEVELS_OF_SMALL_CLOTH`] levels; one more for each further level.
 const GUARD_PASSES: u32 = 2;
 
-/// Cells along the longest limits of cloth that the sweeps of its rule and [`GUARD_PASSES`] hold. Larger cloth has a sweep more: where it whips
-/// or slaps on a body it becomes taut within a step over several cells.
-const CELLS_OF_SMALL_CLOTH: u32 = 32;
+/// Threshold that the passes above hold [1]. Below it sweeps must leave less, and go over all limits more often.
+const WIDE: f64 = 0.03;
+
+/// How many times as often they do at most.
+const TIGHTNESS_MAX: f64 = 4.0;
+
+/// How much more than its excess a limit between coarse particles takes [1].
+const COARSE_RELAXATION: f32 = 1.2;
+
+/// Levels of a sheet of 128 × 128 particles.
+const LEVELS_OF_SMALL_CLOTH: usize = 8;
 
 /// Twenty times the weight of the cloth: of cotton about 30 Pa, as if it were drawn with 3 N/m around a waist [m/s²].
 const PRESSING: f32 = 200.0;
@@ -56,6 +63,10 @@ pub struct StepSettings {
     pub rule: Rule,
     /// Sweeps over all limits per step.
     pub sweeps: u32,
+    /// How often a sweep goes over the limits of single springs.
+    pub limit_passes: u32,
+    /// How often a sweep goes over the limits of each level of coarse particles.
+    pub coarse_passes: u32,
     /// How often the guard goes over the limits of single springs at the end of a step.
     pub guard_passes: u32,
     /// Further sweeps in steps that need them.
@@ -72,7 +83,9 @@ impl StepSettings {
         let bound = model.step_wanted.unwrap_or(f64::INFINITY).min(settings.safety * stable_step(model));
         let steps_per_frame = (frame / bound - 1e-3).ceil().max(1.0);
         let VelocityModification { rule, sweeps, polish } = settings.velocity_modification;
-        let doublings = doublings(model);
+        let hierarchical = rule == Rule::Hierarchical;
+        let tightness = (WIDE / settings.fabric.threshold.least()).round().clamp(1.0, TIGHTNESS_MAX) as u32;
+        let further_passes = model.levels.len().saturating_sub(LEVELS_OF_SMALL_CLOTH) as u32;
         Self {
             dt: (frame / steps_per_frame) as f32,
             steps_per_frame: steps_per_frame as u32,
@@ -89,8 +102,10 @@ impl StepSettings {
             hold_rate: 10.0,
             hold_speed: 0.5,
             rule,
-            sweeps: sweeps.unwrap_or(rule.sweeps() + doublings.min(1)),
-            guard_passes: GUARD_PASSES * (1 + doublings),
+            sweeps: sweeps.unwrap_or(rule.sweeps()),
+            limit_passes: if hierarchical { (LIMIT_PASSES + further_passes) * tightness } else { 1 },
+            coarse_passes: tightness.min(2),
+            guard_passes: (GUARD_PASSES + further_passes) * tightness.min(2),
             polish,
             swept: settings.swept,
         }
@@ -160,15 +175,20 @@ impl StepSettings {
         aim(self.rule)
     }
 
-    /// How often a sweep goes over the limits of single springs.
-    pub fn limit_passes(&self) -> u32 {
-        if self.rule == Rule::Hierarchical { LIMIT_PASSES } else { 1 }
+    /// How often a sweep goes over the limits of a level.
+    pub fn level_passes(&self, level: &Level) -> u32 {
+        if level.is_coarse() { self.coarse_passes } else { self.limit_passes }
     }
 
     /// Part of an excess that a pass of the guard removes from the springs of a colour [1]. All of it, but in the last pass every second colour
     /// leaves half: along a taut line it takes the rest over from the colour before, which would get all of it back.
     pub fn guard_share(&self, pass: u32, colour: u32) -> f32 {
         if pass + 1 == self.guard_passes && colour % 2 == 1 { 0.5 } else { 1.0 }
+    }
+
+    /// How much more than its excess a limit of a level takes [1]: what is behind the ends of coarse ones follows later.
+    pub fn relaxation(level: &Level) -> f32 {
+        if level.is_coarse() { COARSE_RELAXATION } else { 1.0 }
     }
 
     /// How much the guard shortens a spring at once [m]: the thickness in all its passes, for that is what it has to give way.
@@ -181,12 +201,6 @@ impl StepSettings {
     pub fn pressing_speed_per_sweep(&self) -> f32 {
         self.pressing * self.dt / self.sweeps.max(1) as f32
     }
-}
-
-/// How often the longest limits of a model double [`CELLS_OF_SMALL_CLOTH`].
-fn doublings(model: &Model) -> u32 {
-    let cells = model.strands.iter().map(|strand| strand.stride << (strand.level_count - 1)).max();
-    (cells.unwrap_or(0) / CELLS_OF_SMALL_CLOTH).max(1).ilog2()
 }
 
 /// Largest step [s] at which symplectic Euler is surely stable on this model's springs: 2/ω with Gershgorin's bound

@@ -65,28 +65,30 @@ fn what_every_second_spring_has_is_shared_by_both() {
     assert!(least > 0.12 && most < 0.18, "{least} to {most}");
 }
 
+/// Limits of the level of every second particle, or of every fourth and so on: their ends in the flat cloth, and their maximum lengths [m].
+fn coarse_limits(piece: &Piece, level: usize) -> Vec<([glam::Vec2; 2], f32)> {
+    let model = &piece.model;
+    let limits = model.level_limits(&model.levels[level]).into_iter();
+    limits.map(|(ends, length)| (ends.map(|node| model.flat[model.site(node) as usize]), length)).collect()
+}
+
 #[test]
-fn limits_along_strands_are_let_out_as_the_single_ones_on_their_way() {
+fn limits_between_coarse_particles_are_let_out_as_the_single_ones_around_them() {
     let mut piece = square();
-    let before: Vec<_> = piece.model.strand_limits().collect();
+    let before = coarse_limits(&piece, 1);
     let positions = drawn(&piece, |x| if x < 0.4 { 0.0 } else { 0.2 });
     piece.let_out_at(&positions);
-    let flat = |particle: u32| piece.model.flat[particle as usize];
     let mut halves = [0; 2];
-    for ((ends, was), (_, is)) in before.iter().zip(piece.model.strand_limits()) {
-        let [a, b] = ends.map(flat);
-        if (a.y - b.y).abs() > 1e-6 {
-            continue;
-        }
-        let [left, right] = [a.x.min(b.x), a.x.max(b.x)];
+    for ((ends, was), (_, is)) in before.iter().zip(coarse_limits(&piece, 1)) {
+        let [left, right] = [ends[0].x.min(ends[1].x), ends[0].x.max(ends[1].x)];
         // What is evened out between both halves reaches four cells into each.
         let (half, expected) = match (left, right) {
-            (_, right) if right < 0.19 => (0, 1.0),
-            (left, _) if left > 0.61 => (1, (1.0 + 0.2) / (1.0 + AIM)),
+            (_, right) if right < 0.16 => (0, 1.0),
+            (left, _) if left > 0.64 => (1, (1.0 + 0.2) / (1.0 + AIM)),
             _ => continue,
         };
         halves[half] += 1;
         assert!((is / was - expected).abs() < 1e-4, "from {left} to {right} m: {} times as long", is / was);
     }
-    assert!(halves.iter().all(|count| *count > 50), "{halves:?}");
+    assert!(halves.iter().all(|count| *count > 10), "{halves:?}");
 }

@@ -6,7 +6,7 @@ mod dressing;
 mod fit;
 mod garments;
 mod letting_out;
-mod long_limits;
+mod levels;
 mod random_outlines;
 mod seams;
 mod shapes;

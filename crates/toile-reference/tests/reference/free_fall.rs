@@ -3,7 +3,7 @@
 use crate::support::{Grid, Parts, Random, THRESHOLD, centre, momentum, momentum_scale, settings};
 use glam::{DVec3, Vec3};
 use toile_model::{Model, Spring, SpringKind, StepSettings};
-use toile_reference::{Colliders, Particles, Reference, step};
+use toile_reference::{Colliders, Particles, Reference, limits, step};
 use toile_scene::Rule;
 
 const STEPS: u32 = 300;
@@ -114,17 +114,29 @@ fn average_and_predictive_keep_momentum() {
     let (error, acted) = momentum_error(step::limit_average);
     assert!(acted && error < 1e-6, "average {error}");
     let (error, acted) = momentum_error(|particles, limits| {
-        step::limit_predictive(particles, limits, &mut vec![0.0; limits.len()], 0.01);
+        step::limit_predictive(particles, limits, &mut vec![Vec3::ZERO; 200], 0.01);
     });
     assert!(acted && error < 1e-6, "predictive {error}");
-    let (error, acted) = momentum_error(|particles, limits| {
-        step::warm_start(particles, limits, &mut vec![1e-4; limits.len()]);
-    });
-    assert!(acted && error < 1e-6, "warm start {error}");
-    let (error, acted) = momentum_error(|particles, limits| {
-        step::limit_guard(particles, limits, 1.0, &StepSettings { dt: 0.01, ..settings() })
-    });
-    assert!(acted && error < 1e-6, "guard {error}");
+    let (model, before) = blob();
+    let settings = StepSettings { dt: 0.01, ..settings() };
+    let mut after = before.clone();
+    let mut pulls = vec![Vec3::ZERO; 200];
+    limits::sweep(
+        &mut after,
+        &model,
+        &StepSettings { rule: Rule::Hierarchical, sweeps: 1, ..settings.clone() },
+        None,
+        &mut pulls,
+    );
+    step::warm_start(&mut after, &mut pulls);
+    let error = (momentum(&after) - momentum(&before)).length() / momentum_scale(&before);
+    assert!(pulls.iter().any(|pull| *pull != Vec3::ZERO) && error < 1e-6, "levels and warm start {error}");
+    let mut after = before.clone();
+    for colour in &model.levels[0].colours {
+        step::limit_guard(&mut after, &model, colour, 1.0, &settings);
+    }
+    let error = (momentum(&after) - momentum(&before)).length() / momentum_scale(&before);
+    assert!(after.velocities != before.velocities && error < 1e-6, "guard {error}");
 }
 
 #[test]
@@ -141,7 +153,7 @@ fn zero_and_directional_do_not_keep_momentum() {
 fn the_oracle_of_momentum_sees_a_flipped_sign() {
     let (error, _) = momentum_error(|particles, limits| {
         let before = particles.clone();
-        step::limit_predictive(particles, limits, &mut vec![0.0; limits.len()], 0.01);
+        step::limit_predictive(particles, limits, &mut vec![Vec3::ZERO; 200], 0.01);
         for limit in limits {
             let b = limit.ends[1] as usize;
             particles.velocities[b] = before.velocities[b] * 2.0 - particles.velocities[b];

@@ -92,7 +92,7 @@ fn directional_averages_across_gravity_and_without_it() {
 #[test]
 fn predictive_cuts_what_would_become_over_long() {
     let (mut particles, limits) = pair(&[]);
-    step::limit_predictive(&mut particles, &limits, &mut [0.0], DT);
+    step::limit_predictive(&mut particles, &limits, &mut [Vec3::ZERO; 2], DT);
     step::move_particles(&mut particles.positions, &particles.velocities, DT);
     assert!((particles.positions[0].distance(particles.positions[1]) - 1.05).abs() < 1e-5);
 }
@@ -115,7 +115,7 @@ fn two_pinned_ends_and_a_short_spring_are_left_alone() {
         step::limit_zero,
         step::limit_average,
         step::limit_position,
-        |particles, limits| step::limit_predictive(particles, limits, &mut [0.0], DT),
+        |particles, limits| step::limit_predictive(particles, limits, &mut [Vec3::ZERO; 2], DT),
         |particles, limits| step::limit_directional(particles, limits, None, &settings()),
     ];
     for rule in rules {

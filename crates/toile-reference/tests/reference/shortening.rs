@@ -3,7 +3,7 @@
 use crate::support::Random;
 use glam::{DVec2, DVec3, Vec3};
 use toile_model::{Csr, Link, Model, StepSettings};
-use toile_reference::{Colliders, Particles, Reference, step};
+use toile_reference::{Colliders, Nodes, Particles, Reference, step};
 use toile_scene::{Fabric, Pin, Rule, Settings, Sheet, Threshold, VelocityModification};
 
 /// Particles on a side.
@@ -86,17 +86,16 @@ fn apart(a: &Folds, b: &Folds) -> f32 {
     a.positions.iter().zip(&b.positions).map(|(a, b)| a.distance(*b)).sum::<f32>() / a.positions.len() as f32
 }
 
-/// With springs along the limits over four cells, which resist lengthening and shortening.
+/// With springs over four cells along warp and weft, which resist lengthening and shortening.
 fn with_struts(mut model: Model) -> Model {
     let mut rows: Vec<Vec<Link>> = (0..model.positions.len()).map(|i| model.links.row(i).to_vec()).collect();
-    let h = 0.4 / (N - 1) as f32;
-    let over_four = |(ends, max_length): ([u32; 2], f32)| {
-        let rest_length = max_length / 1.03;
-        (3.5 * h..4.5 * h).contains(&rest_length).then_some((ends, rest_length))
-    };
-    for ([a, b], rest_length) in model.strand_limits().filter_map(over_four) {
-        for [here, other] in [[a, b], [b, a]] {
-            rows[here as usize].push(Link { other, rest_length, stiffness: 5.0 });
+    let rest_length = 4.0 * 0.4 / (N - 1) as f32;
+    for i in 0..N * N {
+        let right = (i % N + 4 < N).then_some(i + 4);
+        let below = (i / N + 4 < N).then_some(i + 4 * N);
+        for other in right.into_iter().chain(below) {
+            rows[i as usize].push(Link { other, rest_length, stiffness: 5.0 });
+            rows[other as usize].push(Link { other: i, rest_length, stiffness: 5.0 });
         }
     }
     model.links = Csr::from_rows(rows);
@@ -137,11 +136,12 @@ const KERNELS: [(&str, Kernel); 7] = [
     ("directional", |model, particles, step| step::limit_directional(particles, &model.limits, None, step)),
     ("position", |model, particles, _| step::limit_position(particles, &model.limits)),
     ("predictive", |model, particles, step| {
-        step::limit_predictive(particles, &model.limits, &mut vec![0.0; model.limits.len()], step.dt);
+        step::limit_predictive(particles, &model.limits, &mut vec![Vec3::ZERO; model.positions.len()], step.dt);
     }),
-    ("strands", |model, particles, step| {
-        let (line, lengths) = (&model.strand_particles, &model.strand_lengths);
-        step::limit_strands(particles, &model.strands, line, lengths, step.dt);
+    ("levels", |model, particles, step| {
+        let mut nodes = Nodes::new(model.positions.len() + model.coarse_particles.len());
+        step::limit_small_levels(&mut nodes, particles, model, step);
+        step::shift_velocities(particles, &nodes, &mut vec![Vec3::ZERO; model.positions.len()], step.dt);
     }),
     ("attachments", |model, particles, step| step::limit_attachments(particles, &model.attachments, step.dt)),
 ];

@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 use std::collections::HashSet;
 use std::ops::Range;
-use toile_model::{Csr, Limit, Link, Model, Spring, SpringKind, StepSettings};
+use toile_model::{Cluster, Csr, Level, Limit, Link, Model, NO_CORNER, Spring, SpringKind, StepSettings};
 use toile_reference::Particles;
 use toile_scene::{Friction, Rule};
 
@@ -30,6 +30,8 @@ pub fn settings() -> StepSettings {
         hold_speed: 0.5,
         rule: Rule::None,
         sweeps: 1,
+        limit_passes: 1,
+        coarse_passes: 1,
         guard_passes: 2,
         polish: None,
         swept: true,
@@ -69,6 +71,12 @@ impl Parts {
             max_length: (1.0 + THRESHOLD) * s.rest_length,
         });
         let (limits, limit_colours) = coloured(limits.collect(), |limit| limit.ends);
+        // One level, in which each limit is a cluster.
+        let lengths = |length: f32| [length, f32::INFINITY, f32::INFINITY, f32::INFINITY, f32::INFINITY, f32::INFINITY];
+        let cluster = |limit: &Limit| Cluster {
+            nodes: [limit.ends[0], limit.ends[1], NO_CORNER, NO_CORNER],
+            max_lengths: lengths(limit.max_length),
+        };
         Model {
             links: Csr::from_rows(links),
             particle_quads: Csr::from_rows(particle_quads),
@@ -79,6 +87,10 @@ impl Parts {
             masses: self.masses,
             springs: self.springs,
             quads: self.quads,
+            levels: vec![Level { nodes: 0..count as u32, colours: limit_colours.clone() }],
+            clusters: limits.iter().map(cluster).collect(),
+            guard_lengths: limits.iter().map(|limit| lengths(2.0 * limit.max_length - limit.rest_length)).collect(),
+            leaders: Csr::from_rows((0..count).map(|_| [])),
             limits,
             limit_colours,
             attachments: Csr::from_rows((0..count).map(|_| [])),

@@ -69,6 +69,7 @@ pub fn stable_step(corner: &Corner) -> StableStep {
         model.masses[i] *= corner.mass_ratio as f32;
         model.inverse_masses[i] /= corner.mass_ratio as f32;
     }
+    model.weigh_coarse_particles();
     let links = || model.links.values.iter().map(|link| f64::from(link.stiffness));
     // The lightest of the inner particles.
     let mass = settings.fabric.areal_density / f64::from(corner.n - 1).powi(2);

@@ -33,6 +33,7 @@ pub(super) const MASSES: Case = Case {
                 model.masses[i] *= 1000.0;
                 model.inverse_masses[i] /= 1000.0;
             }
+            model.weigh_coarse_particles();
         };
         Ok(sheet(lab, |_, _| (), heavy)?.held_if(|course| course.elongation_max < 0.1))
     },
@@ -145,6 +146,7 @@ fn needle(lab: &Lab) -> Result<Outcome, LabError> {
     let count = model.particle_count();
     let tip = (0..count as usize).max_by(|a, b| model.positions[*a].y.total_cmp(&model.positions[*b].y));
     tip.into_iter().for_each(|tip| model.inverse_masses[tip] = 0.0);
+    model.weigh_coarse_particles();
     let random = &mut Random::new(lab.seed);
     model.positions.iter_mut().for_each(|position| position.z += random.between(-1e-3, 1e-3));
     let step = StepSettings::new(&settings, &model);

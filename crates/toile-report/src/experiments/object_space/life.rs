@@ -1,5 +1,6 @@
 //! The life of a sheet on the CPU with its collision either in image space or in object space, and the time of both parts.
 
+use glam::Vec3;
 use std::time::{Duration, Instant};
 use toile::model::{Model, StepSettings};
 use toile_reference::maps::BodyMaps;
@@ -23,7 +24,7 @@ pub struct Life<'a> {
     particles: Particles,
     contacts: Vec<Contact>,
     probes: Vec<Probe>,
-    limit_impulses: Vec<f32>,
+    pulls: Vec<Vec3>,
     /// Steps done.
     pub steps: u32,
     /// Time of collision detection and response so far.
@@ -42,7 +43,7 @@ impl<'a> Life<'a> {
             particles: Particles::new(model),
             contacts: vec![Contact::default(); model.positions.len()],
             probes: Vec::new(),
-            limit_impulses: vec![0.0; model.limits.len()],
+            pulls: vec![Vec3::ZERO; model.positions.len()],
             steps: 0,
             collision_time: Duration::ZERO,
             time: Duration::ZERO,
@@ -57,10 +58,10 @@ impl<'a> Life<'a> {
         let mut forces = step::spring_forces(particles, &model.links, settings);
         step::reaction(&mut forces, particles, &self.contacts, settings);
         step::euler(&mut particles.velocities, &forces, &particles.inverse_masses, dt);
-        limits::warm_start(particles, model, settings, &mut self.limit_impulses);
+        limits::warm_start(particles, settings, &mut self.pulls);
         for _ in 0..self.settings.sweeps {
-            let Self { model, settings, particles, limit_impulses, .. } = self;
-            limits::sweep(particles, model, settings, None, limit_impulses);
+            let Self { model, settings, particles, pulls, .. } = self;
+            limits::sweep(particles, model, settings, None, pulls);
             self.collide();
         }
         limits::guard(&mut self.particles, self.model, &self.settings, &self.probes);

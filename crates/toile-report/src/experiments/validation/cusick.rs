@@ -59,6 +59,7 @@ pub fn drape(seed: u64, fabric: Fabric, spacing: f64, seconds: f64) -> Result<Dr
         *weight *= if clamped { 0.0 } else { 1.0 };
         position.z = thickness + offset;
     }
+    model.weigh_coarse_particles();
     let step = StepSettings::new(&settings, &model);
     let disc = cylinder(SUPPORT as f32, 0.3, 64);
     let surface = Surface { mesh: &disc, thickness, velocities: None, open: false };

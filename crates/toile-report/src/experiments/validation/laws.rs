@@ -72,6 +72,7 @@ pub fn momentum_error(lab: &Lab, rule: Rule) -> Result<MomentumError, LabError> 
         *mass *= random.between(1.0, 3.0);
         *inverse = 1.0 / *mass;
     }
+    model.weigh_coarse_particles();
     let step = StepSettings::new(&settings, &model);
     let mut run = Run::new(lab, model, step, Colliders::default())?;
     for _ in 0..4 {
