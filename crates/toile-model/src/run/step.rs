@@ -21,8 +21,8 @@ const TIGHTNESS_MAX: f64 = 4.0;
 /// How much more than its excess a limit between coarse particles takes [1].
 const COARSE_RELAXATION: f32 = 1.2;
 
-/// Levels of a sheet of 128 × 128 particles.
-const LEVELS_OF_SMALL_CLOTH: usize = 8;
+/// Levels of a sheet of 64 × 64 particles.
+const LEVELS_OF_SMALL_CLOTH: usize = 7;
 
 /// Twenty times the weight of the cloth: of cotton about 30 Pa, as if it were drawn with 3 N/m around a waist [m/s²].
 const PRESSING: f32 = 200.0;
