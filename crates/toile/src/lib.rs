@@ -48,7 +48,7 @@ pub use toile_scene as scene;
 #[doc = include_str!("../../../README.md")]
 struct Readme;
 
-/// Compiles the example of the page for hosts.
+/// Compiles the examples of the page for hosts.
 #[cfg(doctest)]
 #[doc = include_str!("../../../docs/hosting.md")]
 struct Hosting;

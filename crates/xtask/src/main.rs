@@ -1,4 +1,4 @@
-//! The commands of the README: they set up what a fresh machine lacks, then do their work.
+//! The commands of the repository: they set up what a fresh machine lacks, then do their work.
 //!
 //! `cargo xtask dress …` is `toile dress …`; `cargo xtask test` checks the format, lints, checks what is published, builds the documentation,
 //! runs every test, runs parity on a second driver and compiles the kernels with a second compiler. CI runs the same.
