@@ -33,6 +33,7 @@ macro_rules! for_every_struct {
             Shape,
             Lag,
             Vertices,
+            Gather,
             Displacement,
             Influence,
             Joint,

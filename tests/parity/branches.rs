@@ -203,6 +203,14 @@ pub fn count(kernel: Kernel, before: &Input, after: &Input, seen: &mut Seen) {
             see("hangs on one joint", vertices().filter(|i| joints(*i) == 1).count());
             see("hangs on several joints", vertices().filter(|i| joints(*i) > 1).count());
         }
+        Kernel::GatherBody => {
+            let ahead = before.host.1.ahead;
+            let count = after.body.positions.len();
+            see("stands where the host has it", if ahead == 0.0 { count } else { 0 });
+            see("goes ahead by its velocity", if ahead != 0.0 && before.host.1.is_last == 0 { count } else { 0 });
+            see("goes by where it was before", if before.host.1.is_last == 1 { count } else { 0 });
+            see("has a normal without length", after.body.normals.iter().filter(|normal| **normal == Vec3::Y).count());
+        }
         Kernel::VertexVelocities => {
             let still = after.body.velocities.iter().filter(|velocity| **velocity == Vec3::ZERO).count();
             see("stands still", still);

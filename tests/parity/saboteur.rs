@@ -60,6 +60,7 @@ const SPARED: &[(&str, Kind, &[&str])] = &[
             "i <= step.",
             "i > step.",
             "i > vertices.count",
+            "i > gather.count",
             "item > span.count",
             "k <= arrayLength",
             "partial <= arrayLength",

@@ -6,6 +6,7 @@
 mod buffers;
 pub mod contents;
 mod error;
+mod hosted;
 mod kernels;
 mod limits;
 mod maps;
@@ -23,6 +24,7 @@ mod timing;
 mod trail;
 
 pub use error::GpuError;
+pub use hosted::{HostAttribute, HostMotion, HostVertices};
 pub use kernels::Kernels;
 pub use maps::{BodyMaps, MapSpace, MapsFault, Surface};
 pub use mark::Mark;

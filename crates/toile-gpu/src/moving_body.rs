@@ -1,6 +1,7 @@
 //! A body that moves, on the device: posed whenever the maps are drawn anew.
 
 use crate::contents::encoded;
+use crate::hosted::{HostVertices, Hosted};
 use crate::limits::check_limits;
 use crate::maps::padded;
 use crate::trail::{dispatch, sized, vertices_uniform};
@@ -29,6 +30,7 @@ pub struct MovingBody {
 enum Poser {
     Joints(Box<Joints>),
     Sequence(MeshSequence),
+    Hosted(Box<Hosted>),
 }
 
 /// Skinning.
@@ -88,11 +90,54 @@ impl MovingBody {
                 Poser::Joints(Box::new(joints))
             }
             Motion::Sequence(sequence) => Poser::Sequence(sequence.clone()),
+            Motion::Hosted => {
+                let hosted = Hosted::new(kernels, vertex_count);
+                bytes += hosted.bytes();
+                Poser::Hosted(Box::new(hosted))
+            }
         };
         Ok(Self { surface, trail, poser, lead: body.lead(), place: DVec3::ZERO, time: None, bytes })
     }
 
-    /// Has the body stand so far from where its motion has it [m]. Its next pose stands still, as the first does.
+    /// Has the next poses be those of vertices that the host skins: they show the body at `time` [s], and `seconds` after the positions before. A pose at another
+    /// time goes ahead or back by the motion of the vertices.
+    ///
+    /// # Errors
+    /// [`GpuError::BufferTooLarge`] when a device cannot bind all vertices at once.
+    ///
+    /// # Panics
+    /// When the body is none that the host skins, or a buffer is not as [`HostAttribute`](crate::HostAttribute) says.
+    pub fn give(
+        &mut self,
+        device: &wgpu::Device,
+        vertices: &HostVertices,
+        time: f64,
+        seconds: f64,
+    ) -> Result<(), GpuError> {
+        match &mut self.poser {
+            Poser::Hosted(hosted) => hosted.give(device, vertices, time, seconds),
+            _ => panic!("only a body whose motion is Motion::Hosted takes vertices of the host"),
+        }
+    }
+
+    /// Records the question where the vertices of a body are that the host skins; whether it was asked: one at a time is under way.
+    pub fn record_bounds(&self, encoder: &mut wgpu::CommandEncoder) -> bool {
+        match &self.poser {
+            Poser::Hosted(hosted) => hosted.record_bounds(encoder, &self.surface),
+            _ => false,
+        }
+    }
+
+    /// The answer, smallest and largest corner [m], once, when it has arrived. Nothing waits.
+    pub fn take_bounds(&self) -> Option<[Vec3; 2]> {
+        match &self.poser {
+            Poser::Hosted(hosted) => hosted.take_bounds(),
+            _ => None,
+        }
+    }
+
+    /// Has the body stand so far from where its motion has it [m]. Its next pose stands still, as the first does. What the host skins stands where the host has
+    /// it.
     pub fn set_place(&mut self, place: DVec3) {
         self.place = place;
         self.time = None;
@@ -116,6 +161,7 @@ impl MovingBody {
                     encoder.copy_buffer_to_buffer(&upload, 0, target, 0, upload.size());
                 }
             }
+            Poser::Hosted(hosted) => hosted.record(device, encoder, &self.surface, time),
         }
         let seconds = self.time.map_or(0.0, |last| time - last);
         self.trail.record_arrival(device, encoder, seconds);

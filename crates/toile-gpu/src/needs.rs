@@ -65,7 +65,7 @@ impl<'a> Needs<'a> {
         match need {
             Need::Nothing => true,
             // What a body has is no need of a cloth.
-            Need::Joints | Need::Morphs => false,
+            Need::Joints | Need::Morphs | Need::Hosted => false,
             // No pass hangs on whether shapes are sampled after maps.
             Need::Number(name) => step_params(Counts::of(model), settings, false).has(name),
             Need::Wind => settings.wind.is_some(),

@@ -130,6 +130,10 @@ buffers! {
     "joints" Listed Brought;
     "body_positions" Listed Brought;
     "body_normals" Listed Brought;
+    "gather" Listed Brought;
+    "host_positions" Listed Brought;
+    "host_normals" Listed Brought;
+    "host_motions" Listed Brought;
     "last_positions" Listed Brought;
     "surface_indices" Listed Brought;
     "surface_positions" Listed Brought;

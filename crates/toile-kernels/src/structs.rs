@@ -392,6 +392,28 @@ shared_structs! {
         rate: f32,
     }
 
+    /// Where the vertices of a body lie in buffers of the host, in words.
+    Gather {
+        /// Number of vertices.
+        count: u32,
+        /// First word of the first position.
+        first_position: u32,
+        /// Words from one position to the next.
+        position_stride: u32,
+        /// First word of the first normal.
+        first_normal: u32,
+        /// Words from one normal to the next.
+        normal_stride: u32,
+        /// First word of the first velocity, or of the first position before.
+        first_motion: u32,
+        /// Words from one of these to the next.
+        motion_stride: u32,
+        /// 1: motions are the positions before, not velocities.
+        is_last: u32,
+        /// How far ahead the vertices go: by velocities in seconds, by positions before in ways from these [s or 1].
+        ahead: f32,
+    }
+
     /// What one morph target does to one vertex.
     Displacement {
         /// Displacement of the bind position.

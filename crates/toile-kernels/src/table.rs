@@ -89,6 +89,8 @@ pub enum Need {
     Joints,
     /// A body with morph targets.
     Morphs,
+    /// A body that the host skins.
+    Hosted,
     /// Analytic shapes.
     Shapes,
     /// Held edges.
@@ -179,6 +181,8 @@ kernels! {
     MorphBody "maps" "morph_body" Pose Vertex Morphs;
     /// Vertices of a body follow their joints.
     SkinBody "maps" "skin_body" Pose Vertex Joints;
+    /// Vertices of a body that the host skins.
+    GatherBody "maps" "gather_body" Pose Vertex Hosted;
     /// Velocities of a moving surface. W §4.3.
     VertexVelocities "maps" "vertex_velocities" Pose Vertex Nothing;
     /// Where columns of the layered maps meet a surface at rest. D §8, W §7.

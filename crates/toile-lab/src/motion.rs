@@ -121,7 +121,7 @@ fn straight<T>(stances: &[Stance<'_>], values: Vec<T>) -> Keys<T> {
 fn skinned(body: &MovingMesh) -> (&Skin, &Rig) {
     match &body.motion {
         Motion::Skinned { skin, rig } => (skin, rig),
-        Motion::Sequence(_) => panic!("the body has joints"),
+        Motion::Sequence(_) | Motion::Hosted => panic!("the body has joints"),
     }
 }
 

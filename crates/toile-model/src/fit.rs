@@ -22,7 +22,7 @@ use glam::DMat3;
 use laid::Laid;
 use section::Skin;
 use sleeves::Sleeve;
-use toile_scene::{Body, Cloth, Garment, Mesh, MovingMesh, Scene};
+use toile_scene::{Body, Cloth, Garment, Mesh, Motion, MovingMesh, Scene};
 
 /// What the caller knows of a body that is else looked for.
 #[derive(Clone, Debug, Default)]
@@ -93,6 +93,10 @@ impl Fit {
         self.findings.extend(stance.findings);
         if stance.turn == DMat3::IDENTITY {
             return Ok(());
+        }
+        let is_hosted = |body: &Body| matches!(body, Body::Moving(moving) if matches!(moving.motion, Motion::Hosted));
+        if self.scene.bodies.iter().any(is_hosted) {
+            return Err(FitError::Hosted);
         }
         for body in &mut self.scene.bodies {
             match body {

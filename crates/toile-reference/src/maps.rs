@@ -2,6 +2,7 @@
 
 mod body_maps;
 mod draw_layers;
+mod gather_body;
 mod layer_maps;
 mod morph_body;
 mod render_sides;
@@ -11,6 +12,7 @@ mod vertex_velocities;
 
 pub use body_maps::BodyMaps;
 pub use draw_layers::{DrawnLayers, draw_layers};
+pub use gather_body::{Attribute, HostMotion, gather_body};
 pub use layer_maps::{Column, LayerMaps};
 pub use morph_body::morph_body;
 pub use render_sides::{Surface, render_sides, render_sides_in};

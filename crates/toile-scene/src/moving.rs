@@ -25,6 +25,8 @@ pub enum Motion {
     },
     /// Its vertices are given at even times.
     Sequence(MeshSequence),
+    /// The host skins it, on the device; here it stands still.
+    Hosted,
 }
 
 /// Vertices at even times, linear in between; before the first and after the last frame they stand still.
@@ -42,6 +44,11 @@ impl MovingMesh {
         let mut moving = Self { motion: Motion::Skinned { skin: Skin::rigid(&mesh), rig: Rig::rigid(keys) }, mesh };
         moving.mesh = moving.at(0.0);
         moving
+    }
+
+    /// A mesh that the host skins on the device, given as it stands while it is dressed: vertices in the order of the host's buffers.
+    pub fn hosted(mesh: Mesh) -> Self {
+        Self { mesh, motion: Motion::Hosted }
     }
 
     /// The way from the first pose of one moving mesh to that of another on the same joints, in some seconds; `None` when vertices or
@@ -83,17 +90,20 @@ impl MovingMesh {
                 Motion::Skinned { skin: skin.clone(), rig: rig.turned(DQuat::from_mat3(&turn)) }
             }
             Motion::Sequence(sequence) => Motion::Sequence(sequence.turned(turn)),
+            Motion::Hosted => Motion::Hosted,
         };
         Self { mesh: self.mesh.turned(turn), motion }
     }
 
-    /// The mesh at a time [s], computed in f64: every vertex, so for pictures and exact measurement, not for each frame.
+    /// The mesh at a time [s], computed in f64: every vertex, so for pictures and exact measurement, not for each frame. One that the host skins
+    /// stands as it is dressed.
     pub fn at(&self, time: f64) -> Mesh {
         let [positions, normals] = match &self.motion {
             Motion::Skinned { skin, rig } => skin.posed(&rig.joint_matrices(time), &rig.morph_weights(time)),
             Motion::Sequence(sequence) => {
                 sequence.at(time).unwrap_or_else(|| [self.mesh.positions.clone(), self.mesh.normals.clone()])
             }
+            Motion::Hosted => return self.mesh.clone(),
         };
         Mesh { positions, normals, triangles: self.mesh.triangles.clone() }
     }
@@ -103,14 +113,15 @@ impl MovingMesh {
         match &self.motion {
             Motion::Skinned { rig, .. } => rig.duration(),
             Motion::Sequence(sequence) => sequence.duration(),
+            Motion::Hosted => 0.0,
         }
     }
 
-    /// Whether the motion repeats after its end; see [`Rig::is_closed`]. A sequence stands still.
+    /// Whether the motion repeats after its end; see [`Rig::is_closed`]. A sequence stands still, and of what the host skins nothing is known.
     pub fn is_closed(&self) -> bool {
         match &self.motion {
             Motion::Skinned { rig, .. } => rig.is_closed(),
-            Motion::Sequence(_) => false,
+            Motion::Sequence(_) | Motion::Hosted => false,
         }
     }
 }

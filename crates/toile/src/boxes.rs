@@ -4,7 +4,7 @@ use crate::Error;
 use glam::{DVec3, Vec3};
 use toile_gpu::MapSpace;
 use toile_model::MapBox;
-use toile_scene::{MapKind, MovingMesh};
+use toile_scene::{MapKind, Motion, MovingMesh};
 
 /// Bounds of a body are looked up in a table of so many per second [1/s].
 const BOUNDS_RATE: f64 = 60.0;
@@ -12,6 +12,10 @@ const BOUNDS_RATE: f64 = 60.0;
 const BOUNDS_MARGIN: f32 = 0.03;
 /// So many parts of a jump are looked at for the size of the maps.
 const PARTS: u32 = 8;
+/// Maps of a body that the host skins are this much larger than its longest extent [1]: it may stand any way, and stretch its arms.
+const HOSTED_ROOM: f32 = 1.3;
+/// So much larger its area may become as it is bent [1].
+const HOSTED_AREA: f64 = 1.2;
 /// What is added around a body for the garments that lie under another one [m].
 const GARMENT_MARGIN: f32 = 0.25;
 
@@ -25,8 +29,18 @@ pub(crate) struct Boxes {
     texel: f32,
     size: [u32; 3],
     jumps: Option<Jumps>,
+    /// The cube around a body that the host skins: the maps stand around it alone.
+    hosted: Option<Cube>,
     /// Largest area of all bodies together [m²].
     area: f64,
+}
+
+/// A cube around where a body was seen last.
+#[derive(Clone, Copy, Debug)]
+struct Cube {
+    centre: Vec3,
+    /// Half of its edge [m].
+    reach: f32,
 }
 
 /// Where a body jumps: the box around both ends would be as large as the jump is far.
@@ -101,7 +115,15 @@ impl Boxes {
             [only] => Jumps::of(only, still, count as usize),
             _ => None,
         };
-        let mut boxes = Self { bounds, round, margin, texel, size: [0; 3], jumps, area };
+        let hosted = moving.iter().find(|body| matches!(body.motion, Motion::Hosted));
+        let hosted = hosted.map(|body| {
+            let [low, high] = body.mesh.bounds().unwrap_or_default();
+            Cube { centre: low.midpoint(high), reach: 0.5 * HOSTED_ROOM * (high - low).max_element() + margin }
+        });
+        if hosted.is_some() {
+            area *= HOSTED_AREA;
+        }
+        let mut boxes = Self { bounds, round, margin, texel, size: [0; 3], jumps, hosted, area };
         let size_at = |time| {
             let [low, high] = boxes.around(time);
             high - low
@@ -125,12 +147,36 @@ impl Boxes {
     /// The box at a time [s], with the bodies so far from where their motion has them [m].
     pub(crate) fn at(&self, time: f64, place: DVec3) -> MapBox {
         let time = self.round.map_or(time, |round| time.rem_euclid(round)).max(0.0);
+        // What the host skins is seen where it is.
+        let place = if self.hosted.is_some() { DVec3::ZERO } else { place };
         let bounds = self.around(time).map(|corner| corner + place.as_vec3());
         MapBox::moving(bounds, self.texel, self.size)
     }
 
+    /// Stands around a body that the host skins from now on, which was seen within these bounds [m].
+    pub(crate) fn follow(&mut self, [low, high]: [Vec3; 2]) {
+        if let Some(cube) = &mut self.hosted {
+            cube.centre = low.midpoint(high);
+        }
+    }
+
+    /// Goes a way with a body that the host skins [m].
+    pub(crate) fn go_along(&mut self, way: DVec3) {
+        if let Some(cube) = &mut self.hosted {
+            cube.centre += way.as_vec3();
+        }
+    }
+
+    /// The middle of a body that the host skins, as it was seen last.
+    pub(crate) fn middle(&self) -> Option<Vec3> {
+        self.hosted.map(|cube| cube.centre)
+    }
+
     /// The box around the bodies from one time of the table to the next; where a body jumps between them, around where it stands.
     fn around(&self, time: f64) -> [Vec3; 2] {
+        if let Some(Cube { centre, reach }) = self.hosted {
+            return [centre - reach, centre + reach];
+        }
         // A time of the table stays one whatever the rounding: boxes of the same pose are then the same.
         let index = (time * BOUNDS_RATE + 1e-4) as usize;
         let last = self.bounds.len() - 1;
@@ -195,6 +241,23 @@ mod tests {
             let map_box = boxes.at(time, DVec3::ZERO);
             assert!(map_box.corner().x < x - 0.25 && map_box.far_corner().x > x + 0.25, "{time} s: {map_box:?}");
         }
+    }
+
+    #[test]
+    fn a_body_that_the_host_skins_has_room_any_way_it_stands() {
+        let bar = Mesh::cuboid(Vec3::new(-0.1, 0.0, -0.1), Vec3::new(0.1, 1.6, 0.1));
+        let mut boxes = Boxes::new(&[MovingMesh::hosted(bar)], &[], 0.01, 0.002, false).expect("all is finite");
+        let holds = |boxes: &Boxes, low: Vec3, high: Vec3| {
+            let map_box = boxes.at(7.0, DVec3::X * 5.0);
+            map_box.corner().cmplt(low).all() && map_box.far_corner().cmpgt(high).all()
+        };
+        let lying = [Vec3::new(-0.8, 0.7, -0.1), Vec3::new(0.8, 0.9, 0.1)];
+        assert!(holds(&boxes, lying[0], lying[1]));
+        let far = Vec3::new(300.0, 1.0, -20.0);
+        boxes.follow([far - 0.1, far + 0.1]);
+        assert!(holds(&boxes, far - 0.8, far + 0.8) && !holds(&boxes, lying[0], lying[1]));
+        boxes.go_along(DVec3::Y);
+        assert_eq!(boxes.middle(), Some(far + Vec3::Y));
     }
 
     #[test]

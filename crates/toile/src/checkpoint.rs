@@ -13,6 +13,8 @@ pub struct Checkpoint {
     pub(crate) clock: Clock,
     pub(crate) done: u64,
     pub(crate) place: glam::DVec3,
+    /// The middle of a body that the host skins.
+    pub(crate) middle: Option<glam::Vec3>,
     pub(crate) teleport_count: usize,
     pub(crate) control: Control,
     pub(crate) pins: Vec<Pins>,

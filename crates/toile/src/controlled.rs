@@ -81,7 +81,8 @@ impl Simulation {
     }
 
     /// Sets the body that moves elsewhere at once, by a way [m], and what it wears along with it: nothing of it is felt as a motion. Shapes and sheets
-    /// stay. A host that only draws everything elsewhere needs none of this.
+    /// stay. A host that only draws everything elsewhere needs none of this. One that skins the body itself has it there from the next
+    /// [`Simulation::advance`] on.
     ///
     /// # Panics
     /// Before the run, where a body stands still beside, where maps are kept, or when the body would stand more than 10 km from where its motion has it.
@@ -133,6 +134,7 @@ impl Simulation {
             clock,
             done: outfit.done(),
             place: outfit.place(),
+            middle: outfit.middle(),
             teleport_count: outfit.teleports().len(),
             control,
             pins: outfit.pins().cloned().collect(),
@@ -150,6 +152,9 @@ impl Simulation {
         let outfit = self.running("it goes back to a checkpoint");
         assert_eq!(checkpoint.marks.len(), outfit.cloths().len(), "a cloth that was taken off does not come back");
         outfit.set_place(checkpoint.place);
+        if let Some(middle) = checkpoint.middle {
+            outfit.stand_around(middle);
+        }
         outfit.go_back(checkpoint.done, checkpoint.teleport_count);
         outfit.know_pins(checkpoint.pins.iter().cloned());
         for (cloth, mark) in outfit.cloths_mut().zip(&checkpoint.marks) {

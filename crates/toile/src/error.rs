@@ -40,6 +40,15 @@ pub enum Error {
     /// What the cloths collide with does not fit into its maps.
     #[error(transparent)]
     Maps(#[from] toile_gpu::MapsFault),
+    /// A body that the host skins was where its maps are not.
+    #[error(
+        "the body that the host skins was {outside:.2} m outside of its maps, and cloth goes through it there: it jumped, which Simulation::teleport tells, or it is \
+         larger than 1.3 times the longest extent of the mesh that was given"
+    )]
+    Outside {
+        /// How far [m].
+        outside: f32,
+    },
     /// A saved state is not one of this simulation.
     #[error("the saved state cannot be restored: {0}")]
     State(String),

@@ -3,14 +3,14 @@
 use crate::boxes::{Boxes, MapPlan};
 use crate::pins::Pins;
 use crate::{Cloth, Colliders, Error};
-use glam::{DMat4, DVec3};
+use glam::{DMat4, DVec3, Vec3};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
-use toile_gpu::{BodyMaps, Kernels, MapsFault, MovingBody, Surface, Trail};
+use toile_gpu::{BodyMaps, HostVertices, Kernels, MapsFault, MovingBody, Surface, Trail};
 use toile_model::{MapBox, Model, StepSettings};
-use toile_scene::{Lead, Mesh, MovingMesh, Shape};
+use toile_scene::{Lead, Mesh, Motion, MovingMesh, Shape};
 
 /// Maps of moving bodies are drawn so often at least [1/s]; in between, surfaces go straight on by the velocity map.
 const MAP_RATE: f64 = 60.0;
@@ -85,6 +85,12 @@ pub(crate) struct Outfit {
     kept: Option<KeptMaps>,
     /// How far bodies that move stand from where their motion has them [m].
     place: DVec3,
+    /// Which of the bodies that move the host skins.
+    hosted: Option<usize>,
+    /// The maps' box when it was asked where that body is; `None` where the answer no longer counts.
+    asked_in: Option<MapBox>,
+    /// How far that body was outside of its maps when it was seen last [m]; 0 inside, and once it was told.
+    outside: f32,
 }
 
 /// The maps of a body over one round of its motion.
@@ -181,6 +187,9 @@ impl Outfit {
             layers,
             kept: None,
             place: DVec3::ZERO,
+            hosted: bodies.moving.iter().position(|body| matches!(body.motion, Motion::Hosted)),
+            asked_in: None,
+            outside: 0.0,
         })
     }
 
@@ -339,9 +348,53 @@ impl Outfit {
 
     /// Has the bodies that move stand elsewhere, so far from where their motion has them [m]; they do not move on the way.
     pub(crate) fn set_place(&mut self, place: DVec3) {
+        if let Some(boxes) = &mut self.boxes {
+            boxes.go_along(place - self.place);
+        }
+        self.asked_in = None;
         self.place = place;
         self.moving.iter_mut().for_each(|body| body.set_place(place));
         self.posed = None;
+    }
+
+    /// Has the host's vertices be those of the body that it skins, where there is one: they show it at a time [s], some seconds after the positions before.
+    pub(crate) fn give(
+        &mut self,
+        device: &wgpu::Device,
+        vertices: &HostVertices,
+        time: f64,
+        seconds: f64,
+    ) -> Result<(), Error> {
+        let Some(index) = self.hosted else { return Ok(()) };
+        Ok(self.moving[index].give(device, vertices, time, seconds)?)
+    }
+
+    /// The middle of a body that the host skins, as it was seen last.
+    pub(crate) fn middle(&self) -> Option<Vec3> {
+        self.boxes.as_ref()?.middle()
+    }
+
+    /// Has the maps stand around a place where the body is that the host skins.
+    pub(crate) fn stand_around(&mut self, middle: Vec3) {
+        if let Some(boxes) = &mut self.boxes {
+            boxes.follow([middle; 2]);
+        }
+        self.asked_in = None;
+    }
+
+    /// Has the maps follow the body that the host skins, as far as it has been seen.
+    fn follow(&mut self) {
+        let (Some(index), Some(boxes)) = (self.hosted, &mut self.boxes) else { return };
+        let (Some(bounds), Some(map_box)) = (self.moving[index].take_bounds(), self.asked_in.take()) else { return };
+        let short = (map_box.corner() - bounds[0]).max(bounds[1] - map_box.far_corner());
+        self.outside = short.max_element().max(0.0);
+        boxes.follow(bounds);
+    }
+
+    /// How far a body that the host skins was outside of its maps when it was seen last [m], told once; `None` where it was inside.
+    pub(crate) fn take_outside(&mut self) -> Option<f32> {
+        let outside = std::mem::take(&mut self.outside);
+        (outside > 0.0).then_some(outside)
     }
 
     /// How far bodies that move stand from where their motion has them [m].
@@ -434,8 +487,8 @@ impl Outfit {
 
     /// Records the pose of the bodies at a time [s], and what the innermost cloth sees of them.
     fn record_maps(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, time: f64) {
-        let innermost = self.layers.first().and_then(|layer| layer.maps.as_ref());
         if let Some(kept) = &self.kept {
+            let innermost = self.layers.first().and_then(|layer| layer.maps.as_ref());
             let index = (time / kept.interval).round() as usize + kept.maps.len() - 1;
             let (maps, map_box) = &kept.maps[index % kept.maps.len()];
             self.shown = Some(*map_box);
@@ -444,9 +497,16 @@ impl Outfit {
             }
             return;
         }
+        self.follow();
+        let innermost = self.layers.first().and_then(|layer| layer.maps.as_ref());
         self.moving.iter_mut().for_each(|body| body.record_pose(device, encoder, time));
         if let Some(boxes) = &self.boxes {
             self.shown = Some(boxes.at(time, self.place));
+        }
+        if let Some(index) = self.hosted
+            && self.moving[index].record_bounds(encoder)
+        {
+            self.asked_in = self.shown;
         }
         if let (Some(innermost), Some(shown)) = (innermost, self.shown) {
             let surfaces = self.still.iter().chain(self.moving.iter().map(MovingBody::surface));

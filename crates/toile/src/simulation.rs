@@ -11,11 +11,11 @@ use crate::stage::Stage;
 use crate::{Cloth, Colliders, Error, pose};
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
-use toile_gpu::{BodyMaps, Kernels, MapSpace, Surface, readback};
+use toile_gpu::{BodyMaps, HostVertices, Kernels, MapSpace, Surface, readback};
 use toile_model::{
     Dressing, DressingStage, Finding, Fit, FitOptions, Judged, MapBox, Model, Piece, Solid, StepSettings, Verdict,
 };
-use toile_scene::{Body, Cloth as Cut, Mesh, MovingMesh, Scene, Settings};
+use toile_scene::{Body, Cloth as Cut, Mesh, Motion, MovingMesh, Scene, Settings};
 
 /// Time that garments have to hang quietly once the body has gone over to the start of its motion [s].
 const WAITING_SECONDS: f64 = 0.5;
@@ -65,6 +65,8 @@ pub struct Simulation {
     /// What the pieces are made of.
     pub(crate) scene_cloths: Vec<Cut>,
     pub(crate) control: Control,
+    /// What the host skins.
+    vertices: Option<HostVertices>,
     pub(crate) keeps_maps: bool,
     pub(crate) clock: Clock,
     pub(crate) phase: Phase,
@@ -125,6 +127,11 @@ impl Simulation {
                 Body::Shape(shape) => bodies.shapes.push(shape.clone()),
             }
         }
+        let hosted = bodies.moving.iter().filter(|body| matches!(body.motion, Motion::Hosted)).count();
+        assert!(
+            hosted <= 1,
+            "a simulation has one body that the host skins, and the scene has {hosted}: give each a simulation of its own"
+        );
         let settings = scene.settings.clone();
         let control = Control::of(&settings, &bodies.shapes, &pieces);
         let mut simulation = Self {
@@ -132,6 +139,7 @@ impl Simulation {
             kernels,
             way: way.filter(|_| pieces.iter().any(|piece| piece.open.is_some())),
             boxes: None,
+            vertices: None,
             keeps_maps: false,
             clock: Clock::default(),
             phase: Phase::Dressing(Box::default()),
@@ -198,6 +206,11 @@ impl Simulation {
             _ => frame,
         };
         let (parts, mut advance) = self.clock.go_on(seconds, part, frame);
+        if let (Phase::Together { outfit, stage: Stage::Running, .. }, Some(vertices)) =
+            (&mut self.phase, &self.vertices)
+        {
+            outfit.give(&self.device, vertices, self.clock.asked(), seconds - advance.dropped_seconds)?;
+        }
         advance.step_count = match &mut self.phase {
             Phase::Together { outfit, stage: Stage::Running, .. } => outfit.record(&self.device, parts, recorder)?,
             Phase::Together { outfit, .. } => {
@@ -217,10 +230,26 @@ impl Simulation {
         Ok(advance)
     }
 
+    /// Has these be the vertices of the body that the host skins, whose scene has a [`MovingMesh::hosted`]: from [`Stage::Running`] on, at the end of each
+    /// [`Simulation::advance`], they show it at the time that the host asked for. The host skins before, in the same encoder or one that is
+    /// submitted earlier, and sets them once or before each call. Until then it stands as its mesh does.
+    ///
+    /// # Panics
+    /// When the scene has no such body. What is wrong with a buffer is told by [`Simulation::advance`].
+    pub fn set_vertices(&mut self, vertices: HostVertices) {
+        let is_hosted = |body: &MovingMesh| matches!(body.motion, Motion::Hosted);
+        assert!(
+            self.bodies.moving.iter().any(is_hosted),
+            "vertices of the host are those of a body whose motion is Motion::Hosted, and the scene has none"
+        );
+        self.vertices = Some(vertices);
+    }
+
     /// What the simulation is doing, as far as the device has reported.
     ///
     /// # Errors
-    /// [`Error::Diverged`] when a particle is not finite.
+    /// [`Error::Diverged`] when a particle is not finite, [`Error::Maps`] when the maps do not hold all of the bodies, [`Error::Outside`], once for each time, when a body
+    /// that the host skins was seen outside of them. The run goes on after it.
     pub fn stage(&mut self) -> Result<Stage, Error> {
         match &mut self.phase {
             Phase::Together { outfit, stage, .. } => {
@@ -229,6 +258,9 @@ impl Simulation {
                 }
                 if let Some(fault) = outfit.maps_fault() {
                     return Err(fault.into());
+                }
+                if let Some(outside) = outfit.take_outside() {
+                    return Err(Error::Outside { outside });
                 }
                 Ok(*stage)
             }

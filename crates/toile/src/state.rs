@@ -1,5 +1,6 @@
 //! The whole state of a simulation as bytes, from which it goes on bit for bit.
 
+use crate::boxes::around_both;
 use crate::clock::Clock;
 use crate::dressed::{Bounds, Done, Dressed};
 use crate::fitting::Fitting;
@@ -211,6 +212,11 @@ impl Simulation {
             outfit.know_pins(state.cloths.iter().map(SavedCloth::pins));
             outfit.set_pins(self.control.pins.iter());
             outfit.set_place(DVec3::from_array(state.place));
+            // A body that the host skins is where its garments are.
+            let bounds = state.cloths.iter().filter_map(SavedCloth::bounds).reduce(around_both);
+            if let Some([low, high]) = bounds {
+                outfit.stand_around(low.midpoint(high));
+            }
         }
         if self.keeps_maps && stage == Stage::Running {
             outfit.keep_maps(&self.kernels, &self.bodies.moving[0], &mut |_, record| {

@@ -20,7 +20,7 @@ impl Regions {
     /// The regions of a body; all of it is the torso when it has no joints.
     pub fn new(body: &MovingMesh) -> Self {
         let of_vertex = match &body.motion {
-            Motion::Sequence(_) => vec!["torso"; body.mesh.positions.len()],
+            Motion::Sequence(_) | Motion::Hosted => vec!["torso"; body.mesh.positions.len()],
             Motion::Skinned { skin, rig } => {
                 let names: Vec<&'static str> = rig.joint_names().map(region).collect();
                 let main = |vertex: usize| {

@@ -78,6 +78,22 @@ pub fn answer(kernel: Kernel, input: &mut Input) {
             input.body.positions = positions;
             input.body.normals = normals;
         }
+        Kernel::GatherBody => {
+            let (words, gather) = &before.host;
+            let attribute =
+                |first: u32, stride: u32| maps::Attribute { words, first: first as usize, stride: stride as usize };
+            let motion = attribute(gather.first_motion, gather.motion_stride);
+            let motion = match gather.is_last {
+                1 => maps::HostMotion::LastPositions(motion),
+                _ => maps::HostMotion::Velocities(motion),
+            };
+            let positions = attribute(gather.first_position, gather.position_stride);
+            let normals = attribute(gather.first_normal, gather.normal_stride);
+            let [positions, normals] =
+                maps::gather_body(gather.count as usize, positions, normals, motion, gather.ahead);
+            input.body.positions = positions;
+            input.body.normals = normals;
+        }
         Kernel::VertexVelocities => {
             input.body.velocities =
                 maps::vertex_velocities(&before.body.last_positions, &before.body.positions, before.rate);

@@ -76,6 +76,8 @@ pub struct Input {
     pub pose: Pose,
     /// What the kernels of a body write.
     pub body: Posed,
+    /// Words of a buffer in which a host has the vertices of its body, and where.
+    pub host: (Vec<f32>, structs::Gather),
     /// How often the body takes a pose [1/s].
     pub rate: f32,
     /// First three rows of the transform of a jump.
@@ -153,6 +155,8 @@ impl Inputs for Input {
             "shapes" => encoded(&self.shapes),
             "lag" => uniform(&structs::Lag { start: self.lag.start, end: self.lag.end }),
             "vertices" => uniform(&structs::Vertices { count: self.skin.positions.len() as u32, rate: self.rate }),
+            "gather" => uniform(&self.host.1),
+            "host_positions" | "host_normals" | "host_motions" => floats(&self.host.0),
             "carry" => {
                 let [row_x, row_y, row_z] = self.carry;
                 uniform(&structs::Carry { row_x, row_y, row_z })

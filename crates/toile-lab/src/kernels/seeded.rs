@@ -12,7 +12,7 @@ use toile::model::{
 use toile::scene::{
     Displacement, Fabric, Friction, Influence, MapKind, Mesh, Morphs, Polish, Pose, Settings, Skin, Wind,
 };
-use toile_kernels::{Domain, Kernel, TABLE};
+use toile_kernels::{Domain, Kernel, TABLE, structs};
 use toile_reference::step::PolishState;
 use toile_reference::{Contact, Lag, Midpoints, Nodes, Particles, Probe, frame};
 
@@ -110,6 +110,11 @@ impl Seeds {
             lag: Lag::of(3, 8, settings.dt),
             sides: sides.clone(),
             layers: layers.clone(),
+            host: host(
+                &mut Random::new(!self.seed ^ u64::from(items) ^ 2),
+                if domain == Domain::Vertex { items } else { 1 },
+                variant,
+            ),
             rate: if variant == Variant::Weightless { 0.0 } else { 120.0 },
             // Of numbers of its own, so that those of all other kernels stay.
             carry: carry(&mut Random::new(!self.seed ^ u64::from(items))),
@@ -704,6 +709,31 @@ fn body(random: &mut Random, vertices: u32) -> (Skin, Pose, Posed) {
         velocities: vec![Vec3::ZERO; vertices as usize],
     };
     (skin, pose, body)
+}
+
+/// Vertices of a body among other words of a host's buffer, each attribute with a stride of its own.
+fn host(random: &mut Random, count: u32, variant: Variant) -> (Vec<f32>, structs::Gather) {
+    let gather = structs::Gather {
+        count,
+        first_position: 5,
+        position_stride: 3,
+        first_normal: 8 + 3 * count,
+        normal_stride: 5,
+        first_motion: 9 + 3 * count,
+        motion_stride: 7,
+        is_last: u32::from(variant == Variant::Papers),
+        ahead: match variant {
+            Variant::Coulomb => 0.01,
+            Variant::Papers => -0.4,
+            Variant::Weightless => 0.0,
+        },
+    };
+    let mut words: Vec<f32> = (0..16 + 10 * count).map(|_| random.between(-1.0, 1.0)).collect();
+    for vertex in (0..count).filter(|vertex| vertex % 40 == 9) {
+        let first = (gather.first_normal + vertex * gather.normal_stride) as usize;
+        words[first..first + 3].fill(0.0);
+    }
+    (words, gather)
 }
 
 /// Moves some points to the borders of the maps, the centres and the surfaces of the shapes, and to where there is no number.

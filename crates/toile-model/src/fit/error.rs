@@ -16,6 +16,11 @@ pub enum FitError {
         /// Its longest extent [m].
         length: f64,
     },
+    /// The host skins the body, so it cannot be turned here.
+    #[error(
+        "the body that the host skins must stand upright and face +z while it is dressed, and it does not: give its mesh, and pose it, so that it does"
+    )]
+    Hosted,
     /// A garment is placed above or below the body, and has no label to follow.
     #[error(
         "garment {garment} is placed from {low:.2} to {high:.2} m, where the body, from {body_low:.2} to {body_high:.2} m, is not: move its panels, \

@@ -94,6 +94,16 @@ fn a_body_that_lies_or_faces_elsewhere_is_turned_back_exactly() {
 }
 
 #[test]
+fn a_body_that_the_host_skins_is_not_turned_behind_its_back() {
+    let (skirt, body) = (garment("skirt"), woman("apose_to_walk").mesh);
+    let hosted = |mesh: Mesh| fit(Body::Moving(MovingMesh::hosted(mesh)), std::slice::from_ref(&skirt));
+    assert_eq!(hosted(body.clone()).expect("it stands and faces +z").findings, []);
+    for turn in turns() {
+        assert_eq!(hosted(body.turned(turn)).expect_err("it would have to be turned"), FitError::Hosted, "{turn}");
+    }
+}
+
+#[test]
 fn the_caller_overrules_what_is_seen() {
     let (skirt, body) = (garment("skirt"), woman("apose_to_walk").mesh);
     let turned = scene(Body::Mesh(body.turned(turns()[0])), std::slice::from_ref(&skirt));
