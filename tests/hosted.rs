@@ -219,21 +219,35 @@ fn the_maps_follow_a_body_that_the_host_skins() {
     }
 }
 
+/// A body that has gone 1.5 m away, and 40 m by a teleport, is found where it was: by a reset, and by another simulation that goes on from its state.
 #[test]
-fn a_reset_finds_the_body_where_it_was() {
+fn a_reset_and_a_saved_state_find_the_body_where_it_was() {
     let ball = rolling_ball(0.0).mesh;
-    let mut simulation = Simulation::new(&gpu().device, &sheet_on(MovingMesh::hosted(ball.clone())));
-    let simulation = simulation.as_mut().expect("its body is finite");
-    advance(simulation, FRAME);
+    let scene = sheet_on(MovingMesh::hosted(ball.clone()));
+    let mut simulation = Simulation::new(&gpu().device, &scene).expect("its body is finite");
+    let still = vec![Vec3::ZERO; ball.positions.len()];
+    let show = |simulation: &mut Simulation, x: f32| {
+        let mut mesh = ball.clone();
+        mesh.positions.iter_mut().for_each(|p| p.x += x);
+        simulation.set_vertices(interleaved(&mesh, &still, &mesh.positions, true));
+        advance(simulation, FRAME);
+        simulation.stage().expect("the body is within its maps");
+        let map_box = simulation.map_box().expect("there are maps");
+        assert!(map_box.corner().x < x - 0.25 && map_box.far_corner().x > x + 0.25, "{x} m: {map_box:?}");
+    };
+    (0..60).for_each(|frame| show(&mut simulation, 0.025 * frame as f32));
     let mut checkpoint = None;
     gpu().run(|encoder| checkpoint = Some(simulation.checkpoint(encoder)));
+    let checkpoint = checkpoint.expect("it was made");
+    let state = simulation.save(&gpu().queue).expect("the device answers");
+    (58..90).rev().for_each(|frame| show(&mut simulation, 0.025 * (frame - 30) as f32));
     gpu().run(|encoder| simulation.teleport(encoder, DVec3::X * 40.0));
-    advance(simulation, FRAME);
-    assert!(simulation.map_box().expect("there are maps").corner().x > 30.0);
-    gpu().run(|encoder| simulation.reset(encoder, checkpoint.as_ref().expect("it was made")).expect("it goes back"));
-    advance(simulation, FRAME);
-    let map_box = simulation.map_box().expect("there are maps");
-    assert!(map_box.corner().x < -0.25 && map_box.far_corner().x > 0.25, "{map_box:?}");
+    (0..2).for_each(|_| show(&mut simulation, 40.7));
+    gpu().run(|encoder| simulation.reset(encoder, &checkpoint).expect("it goes back"));
+    (0..3).for_each(|_| show(&mut simulation, 1.475));
+    let mut other = Simulation::new(&gpu().device, &scene).expect("its body is finite");
+    other.restore(&gpu().queue, &state).expect("it is of the same scene");
+    (0..3).for_each(|_| show(&mut other, 1.475));
 }
 
 /// A body that the host skins with a buffer that is wrong in one way.

@@ -1,6 +1,5 @@
 //! The whole state of a simulation as bytes, from which it goes on bit for bit.
 
-use crate::boxes::around_both;
 use crate::clock::Clock;
 use crate::dressed::{Bounds, Done, Dressed};
 use crate::fitting::Fitting;
@@ -15,7 +14,7 @@ use toile_gpu::readback;
 use toile_model::{Dressing, DressingStage, Motion, Piece, Status, digest_of};
 
 /// What the bytes begin with; another layout has another number.
-const MAGIC: &[u8] = b"toile state 4\n";
+const MAGIC: &[u8] = b"toile state 5\n";
 
 /// The whole state of a simulation.
 #[derive(Debug, Serialize, Deserialize)]
@@ -28,6 +27,8 @@ struct State {
     garment_bounds: Vec<[[f32; 3]; 2]>,
     /// How far bodies that move stand from where their motion has them.
     place: [f64; 3],
+    /// The middle of a body that the host skins, as it was seen last.
+    middle: Option<[f32; 3]>,
     cloths: Vec<SavedCloth>,
 }
 
@@ -117,6 +118,10 @@ impl Simulation {
             done_parts: self.clock.done(),
             garment_bounds,
             place: self.place().to_array(),
+            middle: match &self.phase {
+                Phase::Dressing(_) => None,
+                Phase::Together { outfit, .. } => outfit.middle().map(|middle| middle.to_array()),
+            },
             cloths,
         };
         let body = postcard::to_stdvec(&state).map_err(|error| Error::State(error.to_string()))?;
@@ -212,10 +217,8 @@ impl Simulation {
             outfit.know_pins(state.cloths.iter().map(SavedCloth::pins));
             outfit.set_pins(self.control.pins.iter());
             outfit.set_place(DVec3::from_array(state.place));
-            // A body that the host skins is where its garments are.
-            let bounds = state.cloths.iter().filter_map(SavedCloth::bounds).reduce(around_both);
-            if let Some([low, high]) = bounds {
-                outfit.stand_around(low.midpoint(high));
+            if let Some(middle) = state.middle {
+                outfit.stand_around(Vec3::from_array(middle));
             }
         }
         if self.keeps_maps && stage == Stage::Running {
