@@ -53,6 +53,7 @@ fn measure(bench: &Bench, body: &Mesh, kind: MapKind) {
         .fold(f64::INFINITY, f64::min);
 
     let sheet = Sheet {
+        fabric: None,
         name: "sheet".to_owned(),
         columns: SIZE,
         rows: SIZE,

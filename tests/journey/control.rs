@@ -4,7 +4,7 @@ use crate::support::{advance, gpu, positions, rolling, start, walking};
 use glam::{DVec3, Vec3, dvec3};
 use std::collections::BTreeMap;
 use toile::{Control, Error, Simulation, Stage};
-use toile_scene::{Body, RigidKey, RigidMotion, Shape, ShapeMotion, Wind};
+use toile_scene::{Body, Fabric, Mesh, RigidKey, RigidMotion, Shape, ShapeMotion, Threshold, Wind};
 
 const FRAME: f64 = 1.0 / 60.0;
 
@@ -70,22 +70,94 @@ fn what_no_cloth_has_is_an_error_and_changes_nothing() {
     let mut simulation = start(&scene);
     advance_for(&mut simulation, 2);
     let before = simulation.control().clone();
-    let said = control(&mut simulation, |control| control.fabric.friction = -1.0).expect_err("no fabric has it");
+    let said = control(&mut simulation, |control| control.fabrics[0].friction = -1.0).expect_err("no fabric has it");
     assert_eq!(said.to_string(), "fabric.friction is -1 and must be 0 to 10");
     let said = control(&mut simulation, |control| control.pins[0] = BTreeMap::from([(3, DVec3::NAN)]));
     assert!(said.expect_err("it is nowhere").to_string().starts_with("pin is NaN"));
     // A rule that leaves the tension to the springs needs shorter steps for stiffer ones.
-    let stiff = control(&mut simulation, |control| control.fabric.structural_stiffness *= 9.0);
+    let stiff = control(&mut simulation, |control| control.fabrics[0].structural_stiffness *= 9.0);
     let said = stiff.expect_err("the step is too long").to_string();
     assert!(said.starts_with("sheet 0: a frame would take"), "{said}");
     assert_eq!(*simulation.control(), before);
-    let soft = control(&mut simulation, |control| control.fabric.structural_stiffness *= 0.5);
+    let soft = control(&mut simulation, |control| control.fabrics[0].structural_stiffness *= 0.5);
     soft.expect("softer springs carry the step");
     advance_for(&mut simulation, 5);
     // The scene itself is held to the same ranges.
     scene.settings.fabric.thickness = 1.0;
     let error = Simulation::new(&gpu().device, &scene).expect_err("no cloth is so thick");
     assert_eq!(error.to_string(), "fabric.thickness is 1 and must be 0 to 0.05 m");
+}
+
+#[test]
+fn each_cloth_has_a_fabric_of_its_own() {
+    let mut scene = rolling(2);
+    let silk = Fabric::preset("silk").expect("a preset");
+    scene.cloths[1].set_fabric(silk.clone());
+    let mut simulation = start(&scene);
+    assert_eq!(simulation.control().fabrics, [scene.settings.fabric.clone(), silk.clone()]);
+    let seen = |simulation: &Simulation| -> Vec<(f32, f32, f32)> {
+        let step = |worn: toile::Worn<'_>| {
+            let (step, limit) = (worn.cloth.settings(), &worn.model.limits[0]);
+            (step.thickness, step.friction, limit.max_length / limit.rest_length)
+        };
+        simulation.cloths().map(step).collect()
+    };
+    advance_for(&mut simulation, 2);
+    let before = seen(&simulation);
+    assert_eq!(before[0].0, scene.settings.fabric.thickness as f32);
+    assert_eq!((before[1].0, before[1].1), (silk.thickness as f32, silk.friction as f32));
+    let masses = |index: usize| simulation.cloths().nth(index).expect("it is there").model.masses[17];
+    let ratio = (silk.areal_density / scene.settings.fabric.areal_density) as f32;
+    assert!((masses(1) / masses(0) - ratio).abs() < 1e-4, "{} kg and {} kg", masses(0), masses(1));
+    // What is changed of one leaves the other as it is.
+    control(&mut simulation, |control| {
+        control.fabrics[1].friction = 0.7;
+        control.fabrics[1].threshold = Threshold::even(0.1);
+    })
+    .expect("it is in range");
+    advance_for(&mut simulation, 2);
+    let after = seen(&simulation);
+    assert_eq!(after[0], before[0]);
+    assert_eq!((after[1].0, after[1].1), (silk.thickness as f32, 0.7));
+    assert!(after[1].2 > before[1].2 + 0.02, "{:?}", after[1]);
+    // Taking one off leaves the fabric of the other.
+    simulation.take_off(0);
+    assert_eq!(simulation.control().fabrics[0].friction, 0.7);
+    control(&mut simulation, |control| control.fabrics[0].friction = 0.6).expect("it is in range");
+    assert_eq!(seen(&simulation), [(after[1].0, 0.6, after[1].2)]);
+    // A fabric that no cloth has is refused by the name of its cloth.
+    scene.cloths[1].set_fabric(Fabric { thickness: 1.0, ..silk });
+    let error = Simulation::new(&gpu().device, &scene).expect_err("no cloth is so thick");
+    assert_eq!(error.to_string(), "sheet 1.fabric.thickness is 1 and must be 0 to 0.05 m");
+}
+
+#[test]
+#[should_panic(expected = "density and thickness of a cloth stay")]
+fn the_thickness_of_no_cloth_changes_while_it_runs() {
+    let mut simulation = start(&rolling(2));
+    advance_for(&mut simulation, 1);
+    let _ = control(&mut simulation, |control| control.fabrics[1].thickness *= 2.0);
+}
+
+/// An outer sheet of one thickness on an inner one of another, on a ball: each keeps its own from what is below.
+#[test]
+fn an_outfit_mixes_thicknesses() {
+    let clearances = |thicknesses: [f64; 2]| -> [f32; 2] {
+        let mut scene = rolling(2);
+        scene.bodies = vec![Body::Mesh(Mesh::sphere(Vec3::ZERO, 0.25, 48))];
+        for (cloth, thickness) in scene.cloths.iter_mut().zip(thicknesses) {
+            cloth.set_fabric(Fabric { thickness, damping: 5.0, ..scene.settings.fabric.clone() });
+        }
+        let mut simulation = start(&scene);
+        advance_for(&mut simulation, 40);
+        [0, 1]
+            .map(|cloth| places(&simulation, cloth).iter().map(|place| place.length() - 0.25).fold(f32::MAX, f32::min))
+    };
+    for [inner, outer] in [[0.001, 0.001], [0.008, 0.001], [0.001, 0.008], [0.008, 0.008]] {
+        let [below, above] = clearances([inner, outer]);
+        assert!((below - inner as f32).abs() < 1e-3, "{inner} m and {outer} m: the inner is {below} m away");
+        assert!((above - (inner + outer) as f32).abs() < 2e-3, "{inner} m and {outer} m: the outer is {above} m away");
+    }
 }
 
 #[test]

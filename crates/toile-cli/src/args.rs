@@ -1,8 +1,10 @@
 //! What the user types.
 
+mod garments;
 mod place;
 mod report;
 
+pub use garments::Garments;
 pub use place::{Backend, Place};
 pub use report::ReportOf;
 
@@ -33,7 +35,8 @@ Examples:
 const DRESS_EXAMPLES: &str = "\
 Examples:
   toile dress
-  toile dress --body scan.ply --body-units mm --garment skirt.json --garment shirt.json --fabric wool --spacing 8mm";
+  toile dress --body scan.ply --body-units mm --garment skirt.json --garment shirt.json --fabric wool --spacing 8mm
+  toile dress --garment skirt.json --fabric wool --garment shirt.json --fabric silk";
 
 const WALK_EXAMPLES: &str = "\
 Examples:
@@ -103,18 +106,15 @@ pub struct Outfit {
     /// Time in the clip [s].
     #[arg(long, value_name = "SECONDS", default_value = "0", requires = "clip", value_parser = parse_time, allow_hyphen_values = true)]
     pub time: f64,
-    /// Garment as GarmentCode JSON; repeat it to wear one over the other, inner ones first.
-    #[arg(long, value_name = "FILE")]
-    pub garment: Vec<PathBuf>,
+    /// What is worn, and of what it is made.
+    #[command(flatten)]
+    pub garments: Garments,
     /// Distance of neighbouring particles.
     #[arg(long, value_name = "LENGTH", default_value = "1cm", value_parser = parse_spacing, allow_hyphen_values = true)]
     pub spacing: f64,
     /// Edge length of a map texel.
     #[arg(long, value_name = "LENGTH", default_value = "0.5cm", value_parser = parse_texel, allow_hyphen_values = true)]
     pub texel: f64,
-    /// Fabric: the name of a preset or a TOML file.
-    #[arg(long, value_name = "NAME|FILE", default_value = "cotton")]
-    pub fabric: String,
     /// Further sweeps in steps that leave an elongation above TARGET, at most SWEEPS in a step; not while sewing.
     #[arg(long, value_name = "TARGET,SWEEPS", value_parser = parse_polish, allow_hyphen_values = true)]
     pub polish: Option<Polish>,

@@ -80,12 +80,11 @@ fn existing(folder: &Path) -> &Path {
         .unwrap_or(Path::new("."))
 }
 
-/// Writes bodies and cloths, the cloths alone, pictures of them with the thickness of the cloths [m], and the metrics.
+/// Writes bodies and cloths, each of these with its thickness [m], the cloths alone, pictures of all, and the metrics.
 pub fn write(
     folder: &Path,
     bodies: &[Shown<'_>],
-    cloths: &[Shown<'_>],
-    thickness: f64,
+    cloths: &[(Shown<'_>, f64)],
     metrics: &Metrics,
     hides_progress: bool,
 ) -> Result<()> {
@@ -95,9 +94,9 @@ pub fn write(
         meshes.push(NamedMesh { name, mesh, colour: Material::SKIN.linear_outside() });
         drawn.push(Drawn::body(mesh));
     }
-    for (index, Shown { name, mesh }) in cloths.iter().enumerate() {
+    for (index, (Shown { name, mesh }, thickness)) in cloths.iter().enumerate() {
         meshes.push(NamedMesh { name, mesh, colour: Material::cloth(index).linear_outside() });
-        drawn.push(Drawn::cloth(mesh, index, thickness));
+        drawn.push(Drawn::cloth(mesh, index, *thickness));
     }
     write_glb(&folder.join("dressed.glb"), &meshes)?;
     write_obj(&folder.join("garment.obj"), &joined(cloths))?;
@@ -117,9 +116,9 @@ pub fn write(
 }
 
 /// All cloths as one mesh.
-fn joined(cloths: &[Shown<'_>]) -> Mesh {
+fn joined(cloths: &[(Shown<'_>, f64)]) -> Mesh {
     let mut whole = Mesh::default();
-    for Shown { mesh, .. } in cloths {
+    for (Shown { mesh, .. }, _) in cloths {
         let first = whole.positions.len() as u32;
         whole.positions.extend_from_slice(&mesh.positions);
         whole.normals.extend_from_slice(&mesh.normals);

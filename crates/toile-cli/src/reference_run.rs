@@ -43,7 +43,7 @@ impl ReferenceRun {
         let mut run = Self {
             layers: meshes(scene).map(|mesh| (mesh.clone(), false)).collect(),
             maps: settings.maps,
-            thickness: settings.fabric.thickness as f32,
+            thickness: pieces.iter().map(|piece| piece.step.thickness).fold(0.0, f32::max),
             texel: settings.texel as f32,
             shapes: shapes(scene),
             pieces,

@@ -33,7 +33,7 @@ pub fn simulate(file: SceneFile, options: &FitOptions, running: &Running) -> Res
     };
     let all = worn::run(&fit, file.frames, &computer, running)?;
     let end = end(&all);
-    let mut surfaces = Surfaces::new(&scene.bodies, scene.settings.fabric.thickness, end);
+    let mut surfaces = Surfaces::new(&scene.bodies, end);
     let mut measured = Vec::new();
     for worn in &all {
         measured.push(ClothMetrics::new(worn, &surfaces, scene.settings.texel as f32));
@@ -46,10 +46,11 @@ pub fn simulate(file: SceneFile, options: &FitOptions, running: &Running) -> Res
     let moved: Vec<Mesh> = moving(scene).map(|body| body.at(end)).collect();
     let mut bodies: Vec<Shown<'_>> = meshes(scene).chain(&moved).map(|mesh| Shown { name: "body", mesh }).collect();
     bodies.extend(shapes.iter().map(|(name, mesh)| Shown { name, mesh }));
-    let cloths: Vec<Shown<'_>> = all.iter().map(|worn| Shown { name: &worn.name, mesh: &worn.mesh }).collect();
-    let thickness = scene.settings.fabric.thickness;
+    let thickness = |worn: &worn::Worn| f64::from(worn.settings.thickness);
+    let cloths: Vec<(Shown<'_>, f64)> =
+        all.iter().map(|worn| (Shown { name: &worn.name, mesh: &worn.mesh }, thickness(worn))).collect();
     let hides = running.hides_progress();
-    output::write_whole(&running.out, |folder| output::write(folder, &bodies, &cloths, thickness, &metrics, hides))?;
+    output::write_whole(&running.out, |folder| output::write(folder, &bodies, &cloths, &metrics, hides))?;
     if running.json {
         print(&serde_json::to_string_pretty(&metrics)?)?;
     } else if !running.quiet {

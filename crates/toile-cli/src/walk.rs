@@ -203,7 +203,7 @@ fn simulate(walk: &Walk, gpu: &Gpu, simulation: &mut Simulation, saved: &Saved, 
             row.add_polish(last, &status);
             *last = status;
             let state = State::of(gpu, worn.cloth)?;
-            let (thickness, texel) = (walk.settings.fabric.thickness, walk.settings.texel as f32);
+            let (thickness, texel) = (f64::from(worn.cloth.settings().thickness), walk.settings.texel as f32);
             row.add(worn.model, &state, &status, &exact, &inner, &body, &regions, thickness, texel);
             let mesh = Mesh { positions: state.positions, normals: state.normals, triangles: worn.model.triangles() };
             points.push(mesh.positions.clone());
@@ -249,9 +249,9 @@ fn collision_part(gpu: &Gpu, simulation: &mut Simulation) -> Result<f64> {
 
 /// The views of a frame.
 fn draw(walk: &Walk, body: &Mesh, cloths: &[Mesh], stage: [Vec3; 2]) -> Result<Vec<RgbImage>> {
-    let thickness = walk.settings.fabric.thickness;
+    let worn = cloths.iter().zip(walk.fit.scene.fabrics()).enumerate();
     let mut drawn = vec![Drawn::body(body)];
-    drawn.extend(cloths.iter().enumerate().map(|(i, mesh)| Drawn::cloth(mesh, i, thickness)));
+    drawn.extend(worn.map(|(i, (mesh, fabric))| Drawn::cloth(mesh, i, fabric.thickness)));
     let views = walk.views.iter().map(|view| picture::render_in(&drawn, stage, *view, walk.height));
     Ok(views.collect::<Result<Vec<_>, _>>()?)
 }

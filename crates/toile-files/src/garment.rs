@@ -76,7 +76,7 @@ fn parse(text: &str, stem: &str) -> Result<Garment, Found> {
         seams.push(convert_stitch(index, stitch, &panels, &numbers, &mut sewn)?);
     }
     let name = stem.strip_suffix("_specification").unwrap_or(stem).to_string();
-    Ok(Garment { name, panels, seams })
+    Ok(Garment { name, panels, seams, fabric: None })
 }
 
 fn convert_panel(name: &str, json: &PanelJson, units_in_meter: f64) -> Result<Panel, Found> {

@@ -11,7 +11,7 @@ use crate::error::{FileError, Found, Place};
 use crate::garment::read_garment;
 use crate::scene::problem::Problem;
 use crate::scene::scene_toml::{
-    CornerToml, FrictionToml, MapsToml, PinToml, PolishToml, RuleToml, SceneToml, SheetToml, WindToml,
+    CornerToml, FabricToml, FrictionToml, MapsToml, PinToml, PolishToml, RuleToml, SceneToml, SheetToml, WindToml,
 };
 use crate::scene::value::{SIZES, vector, within, wrong};
 use crate::source;
@@ -19,7 +19,8 @@ use glam::DVec2;
 use std::ops::RangeInclusive;
 use std::path::Path;
 use toile_scene::{
-    Body, Cloth, Fabric, Friction, MapKind, Pin, Polish, Rule, Scene, Settings, Sheet, VelocityModification, Wind,
+    Body, Cloth, Fabric, Friction, Garment, MapKind, Pin, Polish, Rule, Scene, Settings, Sheet, VelocityModification,
+    Wind,
 };
 
 /// Frames of a scene that does not say: two seconds at 60 per second.
@@ -59,11 +60,16 @@ pub fn read_scene(path: &Path, overrides: &[(String, String)]) -> Result<SceneFi
 fn convert(toml: SceneToml, stem: &str, folder: &Path) -> Result<SceneFile, Problem> {
     let settings = settings(&toml, folder)?;
     let mut cloths = Vec::new();
+    let fabric = |fabric: &Option<FabricToml>, key: String| {
+        fabric.clone().map(|fabric| fabric::convert(fabric, &key, folder)).transpose()
+    };
     for (index, sheet) in toml.sheet.iter().enumerate() {
-        cloths.push(Cloth::Sheet(convert_sheet(index, sheet, toml.n)?));
+        let fabric = fabric(&sheet.fabric, format!("sheet.{index}.fabric"))?;
+        cloths.push(Cloth::Sheet(Sheet { fabric, ..convert_sheet(index, sheet, toml.n)? }));
     }
-    for garment in &toml.garment {
-        cloths.push(Cloth::Garment(read_garment(&folder.join(&garment.file))?));
+    for (index, garment) in toml.garment.iter().enumerate() {
+        let fabric = fabric(&garment.fabric, format!("garment.{index}.fabric"))?;
+        cloths.push(Cloth::Garment(Garment { fabric, ..read_garment(&folder.join(&garment.file))? }));
     }
     if cloths.is_empty() {
         let message = "the scene has no cloth: give a [[sheet]] or a [[garment]]";
@@ -87,7 +93,7 @@ fn convert(toml: SceneToml, stem: &str, folder: &Path) -> Result<SceneFile, Prob
 
 fn settings(toml: &SceneToml, folder: &Path) -> Result<Settings, Problem> {
     let fabric = match &toml.fabric {
-        Some(fabric) => fabric::convert(fabric.clone(), folder)?,
+        Some(fabric) => fabric::convert(fabric.clone(), "fabric", folder)?,
         None => Fabric::preset("cotton").expect("cotton is a preset"),
     };
     let default = Settings::new(fabric);
@@ -207,5 +213,6 @@ fn convert_sheet(index: usize, toml: &SheetToml, n: Option<u32>) -> Result<Sheet
         right,
         down,
         pins: toml.pins.iter().enumerate().map(pin).collect::<Result<_, _>>()?,
+        fabric: None,
     })
 }

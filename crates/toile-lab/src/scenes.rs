@@ -33,6 +33,7 @@ pub fn hanging_sheet(n: u32) -> (Sheet, Settings) {
 /// A square sheet with its columns along x.
 pub fn square(n: u32, side: f64, corner: DVec3, down: DVec3, pins: Vec<Pin>) -> Sheet {
     Sheet {
+        fabric: None,
         name: "sheet".to_owned(),
         columns: n,
         rows: n,

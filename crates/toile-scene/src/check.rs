@@ -19,11 +19,12 @@ impl Scene {
     /// [`OutOfRange`] with the first such number, by the name that scene files give it.
     pub fn check(&self) -> Result<(), OutOfRange> {
         self.settings.check()?;
-        let mut sheets = self.cloths.iter().filter_map(|cloth| match cloth {
-            Cloth::Sheet(sheet) => Some(sheet),
-            Cloth::Garment(_) => None,
-        });
-        sheets.try_for_each(check_sheet)?;
+        for cloth in &self.cloths {
+            if let Cloth::Sheet(sheet) = cloth {
+                check_sheet(sheet)?;
+            }
+            cloth.fabric().map_or(Ok(()), |fabric| fabric.check(&format!("{}.fabric.", cloth.name())))?;
+        }
         let mut shapes = self.bodies.iter().filter_map(|body| match body {
             Body::Shape(shape) => Some(shape),
             Body::Mesh(_) | Body::Moving(_) => None,
@@ -140,6 +141,7 @@ mod tests {
 
     fn scene() -> Scene {
         let sheet = Sheet {
+            fabric: None,
             name: "flag".to_owned(),
             columns: 4,
             rows: 3,

@@ -1,5 +1,6 @@
 //! A garment as flat cutting patterns with seams.
 
+use crate::Fabric;
 use glam::{DQuat, DVec2, DVec3};
 
 /// A garment as flat cutting patterns with seams.
@@ -11,6 +12,8 @@ pub struct Garment {
     pub panels: Vec<Panel>,
     /// Pairs of panel edges that are sewn together.
     pub seams: Vec<Seam>,
+    /// What it is made of; `None` is the fabric of the settings. It keeps its own thickness from what is below it.
+    pub fabric: Option<Fabric>,
 }
 
 /// One flat piece of cloth. x is the weft and y the warp direction.

@@ -50,6 +50,13 @@ pub struct Scene {
     pub settings: Settings,
 }
 
+impl Scene {
+    /// What each cloth is made of, in their order: a fabric of its own, or that of the settings.
+    pub fn fabrics(&self) -> impl Iterator<Item = &Fabric> {
+        self.cloths.iter().map(|cloth| cloth.fabric().unwrap_or(&self.settings.fabric))
+    }
+}
+
 /// A piece of cloth.
 #[derive(Clone, Debug)]
 pub enum Cloth {
@@ -57,4 +64,30 @@ pub enum Cloth {
     Sheet(Sheet),
     /// Panels that are sewn first.
     Garment(Garment),
+}
+
+impl Cloth {
+    /// Its name.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Sheet(sheet) => &sheet.name,
+            Self::Garment(garment) => &garment.name,
+        }
+    }
+
+    /// What it is made of; `None` is the fabric of the settings.
+    pub fn fabric(&self) -> Option<&Fabric> {
+        match self {
+            Self::Sheet(sheet) => sheet.fabric.as_ref(),
+            Self::Garment(garment) => garment.fabric.as_ref(),
+        }
+    }
+
+    /// Has it be made of a fabric of its own.
+    pub fn set_fabric(&mut self, fabric: Fabric) {
+        match self {
+            Self::Sheet(sheet) => sheet.fabric = Some(fabric),
+            Self::Garment(garment) => garment.fabric = Some(fabric),
+        }
+    }
 }

@@ -7,7 +7,7 @@ use std::ops::RangeInclusive;
 /// How a scene is simulated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// The cloth.
+    /// What every cloth is made of that has no fabric of its own.
     pub fabric: Fabric,
     /// What keeps the cloth from stretching like rubber.
     pub velocity_modification: VelocityModification,
@@ -71,6 +71,12 @@ impl Settings {
             safety: 0.8,
             swept: true,
         }
+    }
+
+    /// The same settings for a cloth of this fabric; `None` is theirs.
+    pub fn of_fabric(&self, fabric: Option<&Fabric>) -> Self {
+        let fabric = fabric.unwrap_or(&self.fabric).clone();
+        Self { fabric, ..self.clone() }
     }
 }
 

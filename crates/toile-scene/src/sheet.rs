@@ -1,5 +1,6 @@
 //! A rectangular sheet of cloth.
 
+use crate::Fabric;
 use glam::{DVec2, DVec3};
 
 /// A rectangular sheet: the columns × rows grid of mass points of D §3.
@@ -24,6 +25,8 @@ pub struct Sheet {
     pub down: DVec3,
     /// Particles that do not move.
     pub pins: Vec<Pin>,
+    /// What it is made of; `None` is the fabric of the settings.
+    pub fabric: Option<Fabric>,
 }
 
 /// A particle of a sheet that does not move.

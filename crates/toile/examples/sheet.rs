@@ -19,6 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let settings = Settings::new(Fabric::preset("cotton").ok_or("cotton is a preset")?);
     let sheet = Sheet {
+        fabric: None,
         name: "sheet".to_owned(),
         columns: 64,
         rows: 64,

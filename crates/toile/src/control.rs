@@ -33,9 +33,9 @@ pub struct Control {
     pub gravity: DVec3,
     /// The air around the cloth; `None` is none, not even still air. Garments are dressed without it.
     pub wind: Option<Wind>,
-    /// What the cloths are made of. Density and thickness stay. Stiffness, rigidity and threshold make the numbers of springs and limits anew on the CPU,
+    /// What each cloth of the scene is made of, in its order. Density and thickness stay. Stiffness, rigidity and threshold make the numbers of springs and limits anew on the CPU,
     /// which takes as long as meshing does; damping and friction cost nothing.
-    pub fabric: Fabric,
+    pub fabrics: Vec<Fabric>,
     /// The shapes, as many as the scene has. Each moves on the clock of [`Simulation::time`](crate::Simulation::time).
     pub shapes: Vec<Shape>,
     /// For each cloth of the scene, in its order, the particles that are held, and where each is at the end of the next
@@ -49,7 +49,7 @@ impl Control {
         Self {
             gravity: settings.gravity,
             wind: settings.wind,
-            fabric: settings.fabric.clone(),
+            fabrics: pieces.iter().map(|piece| piece.fabric.clone()).collect(),
             shapes: shapes.to_vec(),
             pins: pieces.iter().map(pins_of).collect(),
         }
@@ -57,16 +57,16 @@ impl Control {
 
     /// The settings of a scene with what is controlled.
     pub(crate) fn settings(&self, settings: &Settings) -> Settings {
-        Settings { gravity: self.gravity, wind: self.wind, fabric: self.fabric.clone(), ..settings.clone() }
+        Settings { gravity: self.gravity, wind: self.wind, ..settings.clone() }
     }
 
-    /// Whether springs and limits have other numbers than with another fabric.
-    pub(crate) fn changes_model(&self, fabric: &Fabric) -> bool {
+    /// Whether springs and limits of a cloth have other numbers than with another fabric.
+    pub(crate) fn changes_model(&self, cloth: usize, fabric: &Fabric) -> bool {
         let same = Fabric {
             name: fabric.name.clone(),
             damping: fabric.damping,
             friction: fabric.friction,
-            ..self.fabric.clone()
+            ..self.fabrics[cloth].clone()
         };
         same != *fabric
     }
@@ -79,13 +79,17 @@ impl Control {
     pub(crate) fn check(&self, before: &Self, settings: &Settings) -> Result<(), Error> {
         assert_eq!(self.shapes.len(), before.shapes.len(), "a simulation keeps as many shapes as its scene has");
         assert_eq!(self.pins.len(), before.pins.len(), "a control has pins for each cloth of the scene");
-        let lasting = |fabric: &Fabric| [fabric.areal_density, fabric.thickness];
+        assert_eq!(self.fabrics.len(), before.fabrics.len(), "a control has a fabric for each cloth of the scene");
+        let lasting = |fabrics: &[Fabric]| -> Vec<[f64; 2]> {
+            fabrics.iter().map(|fabric| [fabric.areal_density, fabric.thickness]).collect()
+        };
         assert_eq!(
-            lasting(&self.fabric),
-            lasting(&before.fabric),
+            lasting(&self.fabrics),
+            lasting(&before.fabrics),
             "density and thickness of a cloth stay while it runs: begin a new simulation"
         );
         self.settings(settings).check().map_err(ModelError::from)?;
+        self.fabrics.iter().try_for_each(|fabric| fabric.check("fabric.")).map_err(ModelError::from)?;
         self.shapes.iter().try_for_each(Shape::check).map_err(ModelError::from)?;
         for place in self.pins.iter().flat_map(BTreeMap::values) {
             check_place(*place).map_err(ModelError::from)?;

@@ -33,14 +33,19 @@ impl Simulation {
             assert!(pins.is_empty() || last < count, "{} has {count} particles, and no particle {last}", piece.name);
         }
         let settings = control.settings(&self.settings);
-        let changes_model = control.changes_model(&self.control.fabric);
+        let changed = |index: &usize| control.changes_model(*index, &self.control.fabrics[*index]);
+        let changed: Vec<usize> = (0..self.pieces.len()).filter(changed).collect();
+        let changes_model = !changed.is_empty();
         let changes_shapes = control.shapes != self.control.shapes;
-        if changes_model {
-            let pieces = self.pieces.iter().zip(&self.scene_cloths);
-            let pieces = pieces.map(|(piece, cloth)| piece.of_other_fabric(cloth, &settings));
-            self.pieces = pieces.collect::<Result<_, _>>()?;
+        let mut cloths = self.scene_cloths.clone();
+        cloths.iter_mut().zip(&control.fabrics).for_each(|(cloth, fabric)| cloth.set_fabric(fabric.clone()));
+        let remade = changed.iter().map(|index| self.pieces[*index].of_other_fabric(&cloths[*index], &settings));
+        for (index, piece) in changed.iter().zip(remade.collect::<Result<Vec<_>, _>>()?) {
+            self.pieces[*index] = piece;
         }
-        self.pieces.iter_mut().for_each(|piece| piece.take_numbers(&settings));
+        self.scene_cloths = cloths;
+        let pieces = self.pieces.iter_mut().zip(&control.fabrics);
+        pieces.for_each(|(piece, fabric)| piece.take_numbers(&settings, fabric));
         self.settings = settings;
         self.bodies.shapes.clone_from(&control.shapes);
         self.control = control.clone();
@@ -120,6 +125,7 @@ impl Simulation {
         self.pieces.remove(index);
         self.scene_cloths.remove(index);
         self.control.pins.remove(index);
+        self.control.fabrics.remove(index);
     }
 
     /// Records a copy of the state on the device, to which [`Simulation::reset`] goes back.

@@ -341,7 +341,7 @@ impl Simulation {
         let meshes = self.dressing_meshes();
         let Some(map_box) = self.still_box(&meshes, garment_bounds) else { return Ok(None) };
         let dressed = self.pieces.iter().filter(|piece| piece.open.is_some());
-        let area = meshes.iter().map(|mesh| mesh.area()).sum::<f64>() + self.inner_area(dressed, garments.len());
+        let area = meshes.iter().map(|mesh| mesh.area()).sum::<f64>() + inner_area(dressed, garments.len());
         let maps = BodyMaps::new(&self.kernels, &MapSpace { kind: self.settings.maps, map_box, moving: false, area })?;
         let surface = |mesh: &&Mesh| Surface::new(&self.device, mesh, map_box.texel);
         let mut surfaces: Vec<Surface> = meshes.iter().map(surface).collect();
@@ -360,23 +360,18 @@ impl Simulation {
         Some(MapBox::around(thick.reduce(around_both)?, self.settings.texel as f32))
     }
 
-    /// Largest area of what lies under the outermost of some cloths [m²].
-    fn inner_area<'a>(&self, pieces: impl Iterator<Item = &'a Piece>, count: usize) -> f64 {
-        pieces.take(count).map(|piece| piece.model.area_max(self.settings.fabric.areal_density)).sum()
-    }
-
     /// Largest area of all cloths but the outermost [m²].
     fn under_all(&self) -> f64 {
-        self.inner_area(self.pieces.iter(), self.pieces.len().saturating_sub(1))
+        inner_area(self.pieces.iter(), self.pieces.len().saturating_sub(1))
     }
 
+    /// That of the thickest cloth [m].
     fn thickness(&self) -> f32 {
-        self.settings.fabric.thickness as f32
+        self.pieces.iter().map(|piece| piece.step.thickness).fold(0.0, f32::max)
     }
 
     fn boxes_of(&self, moving: &[MovingMesh], still: &[[Vec3; 2]]) -> Result<Boxes, Error> {
-        let thickness = self.pieces.iter().map(|piece| piece.step.thickness).fold(0.0, f32::max);
-        Boxes::new(moving, still, self.settings.texel as f32, thickness, self.pieces.len() > 1)
+        Boxes::new(moving, still, self.settings.texel as f32, self.thickness(), self.pieces.len() > 1)
     }
 
     /// Begins what comes after the present phase: the way to the start of the motion, or the run.
@@ -634,6 +629,11 @@ impl Simulation {
 /// Frames from the pose that garments are sewn in to the start of the motion.
 fn way_frames(way: &MovingMesh, frame: f64) -> u64 {
     ((way.duration() + WAITING_SECONDS) / frame).ceil() as u64
+}
+
+/// Largest area of what lies under the outermost of some cloths [m²].
+fn inner_area<'a>(pieces: impl Iterator<Item = &'a Piece>, count: usize) -> f64 {
+    pieces.take(count).map(Piece::area_max).sum()
 }
 
 fn bounds_of(meshes: &[Mesh]) -> Vec<[Vec3; 2]> {

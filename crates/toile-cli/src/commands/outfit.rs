@@ -2,7 +2,7 @@
 
 use crate::args::Outfit;
 use anyhow::{Result, bail};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use toile::files::{self, BodyOptions, Fault, SceneFile};
 use toile::model::FitOptions;
 use toile::scene::{Body, Cloth, Fabric, Garment, MovingMesh, Scene, Settings, VelocityModification};
@@ -54,15 +54,19 @@ pub fn walking_woman(clip: &str) -> Result<MovingMesh> {
 
 /// Reads the garments of the outfit, inner ones first.
 pub fn read_garments(outfit: &Outfit) -> Result<Vec<Garment>> {
-    if outfit.garment.is_empty() {
+    if outfit.garments.files.is_empty() {
         return Ok(vec![files::parse_garment(GARMENT, "dress")?]);
     }
-    Ok(outfit.garment.iter().map(|path| files::read_garment(path)).collect::<Result<_, _>>()?)
+    let read = |(path, own): &(PathBuf, Option<String>)| {
+        let fabric = own.as_deref().map(fabric).transpose()?;
+        Ok(Garment { fabric, ..files::read_garment(path)? })
+    };
+    outfit.garments.files.iter().map(read).collect()
 }
 
 /// How the outfit is simulated.
 pub fn settings(outfit: &Outfit) -> Result<Settings> {
-    let default = Settings::new(fabric(&outfit.fabric)?);
+    let default = Settings::new(fabric(&outfit.garments.fabric)?);
     let velocity_modification = VelocityModification { polish: outfit.polish, ..default.velocity_modification };
     Ok(Settings { velocity_modification, spacing: outfit.spacing, texel: outfit.texel, ..default })
 }
@@ -87,4 +91,35 @@ fn fabric(name: &str) -> Result<Fabric> {
         bail!("--fabric {name}: {fault}; a TOML file may take its place");
     }
     Ok(files::read_fabric(path)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::args::{Arguments, Command};
+    use clap::Parser;
+
+    fn fabrics(typed: &[&str]) -> Vec<String> {
+        let fixture = |word: &str| match word.strip_suffix(".json") {
+            Some(_) => format!("{}/../../fixtures/garments/{word}", env!("CARGO_MANIFEST_DIR")),
+            None => word.to_owned(),
+        };
+        let words = ["toile", "dress"].iter().chain(typed).map(|word| fixture(word));
+        let Command::Dress(dress) = Arguments::try_parse_from(words).expect("it is clear").command else {
+            panic!("it was dress")
+        };
+        let scene = read(&dress.outfit).expect("it can be read").scene;
+        scene.fabrics().map(|fabric| fabric.name.clone()).collect()
+    }
+
+    #[test]
+    fn each_garment_is_made_of_the_fabric_that_follows_it() {
+        assert_eq!(fabrics(&[]), ["cotton"]);
+        assert_eq!(fabrics(&["--fabric", "wool"]), ["wool"]);
+        let [skirt, shirt] = ["skirt.json", "shirt_sleeves.json"];
+        assert_eq!(fabrics(&["--garment", skirt, "--garment", shirt, "--fabric", "wool"]), ["wool", "wool"]);
+        let both = ["--garment", skirt, "--fabric", "wool", "--garment", shirt, "--fabric", "silk"];
+        assert_eq!(fabrics(&both), ["wool", "silk"]);
+        assert_eq!(fabrics(&both[..6]), ["wool", "cotton"]);
+    }
 }

@@ -86,8 +86,9 @@ fn plans(scene: &Scene, patterns: &[Pattern]) -> Result<Vec<ClothPlan>> {
     let mut bounds = bounds(scene);
     let mut plans = Vec::new();
     let mut area = 0.0;
-    for Pattern { name, open, sewn, .. } in patterns {
-        let step = |model| StepSettings::of_cloth(name, &scene.settings, model);
+    for (Pattern { name, open, sewn, .. }, fabric) in patterns.iter().zip(scene.fabrics()) {
+        let settings = scene.settings.of_fabric(Some(fabric));
+        let step = |model| StepSettings::of_cloth(name, &settings, model);
         // As a garment is dressed: sewn, then draped.
         let models = match sewn {
             None => vec![("sheet", open, step(open)?)],
@@ -104,10 +105,10 @@ fn plans(scene: &Scene, patterns: &[Pattern]) -> Result<Vec<ClothPlan>> {
             area: area + meshes(scene).map(Mesh::area).sum::<f64>(),
         };
         let map_bytes = bounds.map_or(0, |bounds| space(bounds).bytes());
-        for (state, model, settings) in &models {
-            plans.push(ClothPlan::new(name, state, model, settings, maps, &shapes, map_bytes));
+        for (state, model, step) in &models {
+            plans.push(ClothPlan::new(name, state, model, step, maps, &shapes, map_bytes));
         }
-        area += sewn.as_ref().unwrap_or(open).area_max(scene.settings.fabric.areal_density);
+        area += sewn.as_ref().unwrap_or(open).area_max(settings.fabric.areal_density);
         // A later cloth lies over this one. Where it will hang is not known; near the body it changes little.
         bounds = bounds.or_else(|| around(models.iter().flat_map(|(_, model, _)| &model.positions)));
     }
@@ -116,7 +117,7 @@ fn plans(scene: &Scene, patterns: &[Pattern]) -> Result<Vec<ClothPlan>> {
 
 /// The box that the maps are drawn around [m]; `None` without a mesh body.
 fn bounds(scene: &Scene) -> Option<[Vec3; 2]> {
-    let thickness = scene.settings.fabric.thickness as f32;
+    let thickness = scene.fabrics().map(|fabric| fabric.thickness as f32).fold(0.0, f32::max);
     let corners: Vec<Vec3> = scene
         .bodies
         .iter()

@@ -86,7 +86,8 @@ fn draw(file: &SceneFile, rows: &[Row], ends: &[(Mesh, Option<Mesh>)]) -> Result
     let bounds = meshes.filter_map(Mesh::bounds);
     let stage = bounds.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
     let picture = |(row, (cloth, ball)): (&Row, &(Mesh, Option<Mesh>))| -> Result<RgbImage> {
-        let mut drawn = vec![Drawn::cloth(cloth, 0, file.scene.settings.fabric.thickness)];
+        let thickness = file.scene.fabrics().next().map_or(0.0, |fabric| fabric.thickness);
+        let mut drawn = vec![Drawn::cloth(cloth, 0, thickness)];
         drawn.extend(ball.as_ref().map(Drawn::body));
         let mut picture = picture::render_in(&drawn, stage.unwrap_or_default(), View::ThreeQuarter, PICTURE_HEIGHT)?;
         let stretch = format!("{:.1} %", 1e2 * row.elongation_max_over_run);
@@ -121,6 +122,7 @@ fn try_rule(
     }
     let mut scene = scene.clone();
     scene.settings.velocity_modification.rule = rule;
+    scene.settings = scene.settings.of_fabric(sheet.fabric.as_ref());
     let model = Model::from_sheet(sheet, &scene.settings);
     let step = StepSettings::of_cloth(name, &scene.settings, &model)?;
     let mut engine = computer.start(&Fit::new(&scene, &FitOptions::default())?)?;

@@ -9,8 +9,6 @@ use toile_reference::ExactDistance;
 
 /// Everything that a cloth can touch. Built once per run; each finished garment is added for the next one.
 pub struct Surfaces {
-    /// Distance that the cloth keeps from all of them [m].
-    thickness: f64,
     bodies: Vec<Exact>,
     solid: Solid,
     garments: Vec<ExactDistance>,
@@ -60,8 +58,8 @@ impl Exact {
 }
 
 impl Surfaces {
-    /// The bodies of a scene as they stand at a time [s]; cloth keeps `thickness` [m] from them and from garments below it.
-    pub fn new(bodies: &[Body], thickness: f64, time: f64) -> Self {
+    /// The bodies of a scene as they stand at a time [s].
+    pub fn new(bodies: &[Body], time: f64) -> Self {
         let exact = |body: &Body| match body {
             Body::Mesh(mesh) => Exact::Mesh(Box::new(ExactDistance::new(mesh))),
             Body::Moving(body) => Exact::Mesh(Box::new(ExactDistance::new(&body.at(time)))),
@@ -73,7 +71,7 @@ impl Surfaces {
             Body::Shape(shape) => shape.mesh(time),
         };
         let solid = Solid::of(&bodies.iter().map(mesh).collect::<Vec<_>>());
-        Self { thickness, bodies: bodies.iter().map(exact).collect(), solid, garments: Vec::new() }
+        Self { bodies: bodies.iter().map(exact).collect(), solid, garments: Vec::new() }
     }
 
     /// A garment that later ones lie over.
@@ -87,7 +85,7 @@ impl Surfaces {
         let points = || worn.mesh.positions.iter().map(|p| p.as_dvec3());
         let depth = |point| self.bodies.iter().map(|body| body.penetration(point, time)).reduce(f64::max);
         let depths: Vec<f64> = points().filter_map(depth).collect();
-        let reach = reach(self.thickness, texel);
+        let reach = reach(f64::from(worn.settings.thickness), texel);
         let false_count = points()
             .zip(&depths)
             .zip(&worn.touching)

@@ -21,6 +21,7 @@ fn skirt() -> Pattern {
 fn curtain() -> Pattern {
     let columns = 13;
     let sheet = Sheet {
+        fabric: None,
         name: "a < b & c".to_owned(),
         columns,
         rows: 9,

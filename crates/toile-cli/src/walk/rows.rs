@@ -206,7 +206,9 @@ impl WalkMetrics {
             *regions.entry(region.clone()).or_default() += count;
         }
         let settings = &fit.scene.settings;
-        let threshold = settings.fabric.threshold;
+        let thresholds = fit.scene.fabrics().map(|fabric| fabric.threshold);
+        let threshold = thresholds
+            .fold([0.0_f64; 3], |most, of| [most[0].max(of.warp), most[1].max(of.weft), most[2].max(of.shear)]);
         let fractions: f64 = frames.iter().map(|row| row.false_contact_fraction).sum();
         Self {
             adapter: adapter.to_owned(),
@@ -216,7 +218,7 @@ impl WalkMetrics {
             particle_count: walkers.iter().map(|walker| walker.particle_count).sum(),
             steps_per_frame: walkers.first().map_or(0, |walker| walker.steps_per_frame),
             frame_rate: settings.frame_rate,
-            threshold: [threshold.warp, threshold.weft, threshold.shear],
+            threshold,
             frame_count: frames.len(),
             elongation_max: most(|row| row.elongation_max),
             elongation_p99_worst: most(|row| row.elongation_p99),

@@ -30,13 +30,13 @@ fn read_file(path: &Path, depth: usize) -> Result<Fabric, FileError> {
     fill(table, folder, &stem, "", depth).map_err(|problem| problem.in_file(path))
 }
 
-/// The fabric of a scene; files lie relative to the folder.
-pub(crate) fn convert(toml: FabricToml, folder: &Path) -> Result<Fabric, Problem> {
+/// The fabric of a scene, or of a cloth in it, under its key; files lie relative to the folder.
+pub(crate) fn convert(toml: FabricToml, key: &str, folder: &Path) -> Result<Fabric, Problem> {
     match toml {
-        FabricToml::Named(name) => named(&name, "fabric", folder, DEEPEST_BASE),
+        FabricToml::Named(name) => named(&name, key, folder, DEEPEST_BASE),
         FabricToml::Table(value) => {
-            let table = value.try_into::<FabricTable>().map_err(|error| wrong("fabric", error.message()))?;
-            fill(table, folder, "fabric", "fabric.", DEEPEST_BASE)
+            let table = value.try_into::<FabricTable>().map_err(|error| wrong(key, error.message()))?;
+            fill(table, folder, "fabric", &format!("{key}."), DEEPEST_BASE)
         }
     }
 }

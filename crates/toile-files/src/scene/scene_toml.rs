@@ -152,6 +152,7 @@ pub(crate) struct SheetToml {
     pub down: [f64; 3],
     #[serde(default)]
     pub pins: Vec<PinToml>,
+    pub fabric: Option<FabricToml>,
 }
 
 /// A corner by name, or a particle as [column, row].
@@ -178,6 +179,7 @@ pub(crate) enum CornerToml {
 #[serde(deny_unknown_fields)]
 pub(crate) struct GarmentToml {
     pub file: String,
+    pub fabric: Option<FabricToml>,
 }
 
 #[derive(Deserialize)]

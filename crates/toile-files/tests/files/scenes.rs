@@ -106,6 +106,38 @@ fn a_fabric_is_named_or_differs_from_a_named_one() {
 }
 
 #[test]
+fn a_cloth_may_have_a_fabric_of_its_own() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    fs::write(at("coat.json"), garment_text()).expect("it is written");
+    fs::write(at("felt.toml"), "base = \"wool\"\nthickness = 0.011\n").expect("it is written");
+    let sheet = "[[sheet]]\nsize = [1, 1]\ncorner = [0, 0, 0]\nright = [1, 0, 0]\ndown = [0, 0, 1]\n";
+    let coat = "[[garment]]\nfile = \"coat.json\"\n";
+    let text = format!(
+        "n = 4\nfabric = \"denim\"\n{sheet}{sheet}fabric = {{ base = \"silk\", friction = 0.1 }}\n{coat}{coat}fabric = \"felt.toml\"\n"
+    );
+    fs::write(at("scene.toml"), text).expect("it is written");
+    let scene = read_scene(&at("scene.toml"), &[]).unwrap_or_else(|error| panic!("{error}")).scene;
+    let preset = |name: &str| Fabric::preset(name).expect("a preset");
+    let fabrics: Vec<Fabric> = scene.fabrics().cloned().collect();
+    assert_eq!(fabrics[0], preset("denim"));
+    assert_eq!(fabrics[1], Fabric { friction: 0.1, ..preset("silk") });
+    assert_eq!((&fabrics[2], fabrics[3].thickness), (&preset("denim"), 0.011));
+    let own: Vec<bool> = scene.cloths.iter().map(|cloth| cloth.fabric().is_some()).collect();
+    assert_eq!(own, [false, true, false, true]);
+    for (key, value, told) in [
+        ("sheet.1.fabric", "tweed", "key \"sheet.1.fabric\": there is no fabric \"tweed\""),
+        ("sheet.0.fabric.damping", "-1", "key \"sheet.0.fabric.areal_density\": it is missing"),
+        ("sheet.1.fabric.friction", "-1", "key \"sheet.1.fabric.friction\": it is -1 and must be"),
+        ("garment.0.fabric.weave", "twill", "key \"garment.0.fabric\": unknown field `weave`"),
+        ("garment.1.fabric", "none.toml", "none.toml"),
+    ] {
+        let error = read_scene(&at("scene.toml"), &overrides(&[(key, value)])).expect_err(key).to_string();
+        assert!(error.contains(told), "{error}");
+    }
+}
+
+#[test]
 fn a_scene_names_any_rule_and_its_sweeps_if_it_cares() {
     for (name, rule) in Rule::ALL {
         for (sweeps, pairs) in [(None, vec![("rule", name)]), (Some(5), vec![("rule", name), ("sweeps", "5")])] {
@@ -295,7 +327,7 @@ fn faults_in_a_scene_name_the_file_that_has_them() {
     scene.toml: the scene has no cloth: give a [[sheet]] or a [[garment]]
     scene.toml, line 1, column 8: string values must be quoted, expected literal string
     scene.toml, line 1, column 11: invalid length 2, expected an array of length 3
-    scene.toml, line 3, column 1: unknown field `size`, expected `file`
+    scene.toml, line 3, column 1: unknown field `size`, expected `file` or `fabric`
     scene.toml, key "sheet.0.columns": it is missing; give it, or n for all sheets
     circle.toml, key "base": the base "circle.toml" leads in a circle
     bare.toml, key "structural_stiffness": it is missing; give it, or a base such as "cotton"

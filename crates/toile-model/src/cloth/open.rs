@@ -17,7 +17,7 @@ use toile_scene::{Garment, Rule, Settings, Sheet};
 const SEAM_STIFFNESS: f32 = 1e-4;
 
 impl Model {
-    /// The grid of a sheet. Its flat x runs along `right`, its flat y along `down`.
+    /// The grid of a sheet, of its own fabric or that of the settings. Its flat x runs along `right`, its flat y along `down`.
     ///
     /// # Panics
     /// When the sheet has fewer than two columns or rows, or a pin lies outside of it.
@@ -32,7 +32,7 @@ impl Model {
             .flat_map(|r| (0..columns - 1).map(move |c| r * columns + c))
             .map(|first| [first, first + 1, first + columns + 1, first + columns])
             .collect();
-        let mut model = Self::from_flat(&flat, &places, quads, settings);
+        let mut model = Self::from_flat(&flat, &places, quads, &settings.of_fabric(sheet.fabric.as_ref()));
         for pin in &sheet.pins {
             assert!(pin.column < columns && pin.row < rows, "the pins of a sheet are particles of it");
             model.inverse_masses[(pin.row * columns + pin.column) as usize] = 0.0;
@@ -61,6 +61,7 @@ impl Model {
     /// # Panics
     /// When a seam names a panel or edge that does not exist.
     pub fn from_garment(garment: &Garment, settings: &Settings) -> Result<Self, ModelError> {
+        let settings = &settings.of_fabric(garment.fabric.as_ref());
         let spacing = settings.spacing;
         if !(spacing > 0.0 && spacing.is_finite()) {
             return Err(ModelError::Spacing { spacing });

@@ -5,7 +5,7 @@ use super::letting_out::LetOut;
 use super::step::StepSettings;
 use crate::{Merge, Model, ModelError};
 use glam::Vec3;
-use toile_scene::{Cloth, Scene, Settings};
+use toile_scene::{Cloth, Fabric, Scene, Settings};
 
 /// A garment or a sheet, meshed, with the numbers of its steps.
 #[derive(Clone, Debug)]
@@ -18,6 +18,8 @@ pub struct Piece {
     pub model: Model,
     /// The numbers of a step of the run.
     pub step: StepSettings,
+    /// What it is made of.
+    pub fabric: Fabric,
     let_out: LetOut,
 }
 
@@ -55,11 +57,13 @@ impl Piece {
     }
 
     fn new(cloth: &Cloth, settings: &Settings) -> Result<Self, ModelError> {
+        let settings = &settings.of_fabric(cloth.fabric());
+        let fabric = settings.fabric.clone();
         match cloth {
             Cloth::Sheet(sheet) => {
                 let model = Model::from_sheet(sheet, settings);
                 let step = StepSettings::of_cloth(&sheet.name, settings, &model)?;
-                Ok(Self { name: sheet.name.clone(), open: None, model, step, let_out: LetOut::default() })
+                Ok(Self { name: sheet.name.clone(), open: None, model, step, fabric, let_out: LetOut::default() })
             }
             Cloth::Garment(garment) => {
                 let open = Model::from_garment(garment, settings)?;
@@ -67,13 +71,22 @@ impl Piece {
                 let (model, merge) = open.sewn();
                 let step = StepSettings::of_cloth(&garment.name, settings, &model)?;
                 let open = Open { model: open, merge, sewing: open_step.sewing(), step: open_step, sewn: None };
-                Ok(Self { name: garment.name.clone(), open: Some(open), model, step, let_out: LetOut::default() })
+                Ok(Self {
+                    name: garment.name.clone(),
+                    open: Some(open),
+                    model,
+                    step,
+                    fabric,
+                    let_out: LetOut::default(),
+                })
             }
         }
     }
 
-    /// Takes the numbers of settings that may change while a cloth runs; see [`StepSettings::with_numbers_of`].
-    pub fn take_numbers(&mut self, settings: &Settings) {
+    /// Takes the numbers of settings that may change while a cloth runs, and of its fabric; see [`StepSettings::with_numbers_of`].
+    pub fn take_numbers(&mut self, settings: &Settings, fabric: &Fabric) {
+        let settings = &settings.of_fabric(Some(fabric));
+        self.fabric = fabric.clone();
         let take = |step: &mut StepSettings| *step = step.with_numbers_of(settings);
         take(&mut self.step);
         if let Some(open) = &mut self.open {
@@ -83,7 +96,12 @@ impl Piece {
         }
     }
 
-    /// The same piece of another fabric, as it runs: with the step that it has, worn as it is.
+    /// Largest area for which maps of the cloth make room [m²].
+    pub fn area_max(&self) -> f64 {
+        self.model.area_max(self.fabric.areal_density)
+    }
+
+    /// The same piece of the fabric that its cloth has now, as it runs: with the step that it has, worn as it is.
     ///
     /// # Errors
     /// [`ModelError::Steps`] when the fabric asks for a shorter step; [`ModelError`] when the cloth cannot be meshed.

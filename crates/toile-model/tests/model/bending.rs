@@ -17,6 +17,7 @@ fn fabric(spacing: f64, bending_rigidity: f64) -> Settings {
 /// A sheet of so many cells on a side.
 fn sheet(cells: u32, spacing: f64, bending_rigidity: f64) -> Model {
     let sheet = Sheet {
+        fabric: None,
         name: "sheet".into(),
         columns: cells + 1,
         rows: cells + 1,

@@ -8,6 +8,7 @@ use toile_scene::{Mesh, Sheet};
 /// A level sheet of 10 × 10 cells of 3 cm around the origin.
 fn sheet() -> Model {
     let sheet = Sheet {
+        fabric: None,
         name: "sheet".into(),
         columns: 11,
         rows: 11,

@@ -27,6 +27,7 @@ fn sheet(columns: u32, rows: u32, pins: Vec<Pin>) -> Model {
 
 fn sheet_of(columns: u32, rows: u32, pins: Vec<Pin>, settings: &Settings) -> Model {
     let sheet = Sheet {
+        fabric: None,
         name: "sheet".into(),
         size: DVec2::new(f64::from(columns - 1), f64::from(rows - 1)) * 0.01,
         columns,

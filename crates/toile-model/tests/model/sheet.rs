@@ -7,6 +7,7 @@ use toile_scene::{Pin, Sheet};
 
 fn sheet(columns: u32, rows: u32) -> Sheet {
     Sheet {
+        fabric: None,
         name: "sheet".into(),
         columns,
         rows,

@@ -38,6 +38,7 @@ pub fn garment(panels: Vec<Panel>, seams: &[([usize; 2], [usize; 2])]) -> Garmen
         name: "garment".into(),
         panels,
         seams: seams.iter().map(|&(a, b)| Seam { sides: [side(a), side(b)], right_wrong: false }).collect(),
+        fabric: None,
     }
 }
 

@@ -10,6 +10,7 @@ fn torn(pins: Vec<Pin>) -> (Model, StepSettings, Particles) {
     let mut settings = Settings::new(Fabric::preset("cotton").expect("cotton is a preset"));
     settings.velocity_modification = VelocityModification::new(Rule::Hierarchical);
     let sheet = Sheet {
+        fabric: None,
         name: "sheet".into(),
         size: DVec2::splat(0.32),
         columns: 33,

@@ -33,6 +33,7 @@ fn curtain(rule: Rule) -> (Model, StepSettings) {
         ..Settings::new(fabric)
     };
     let sheet = Sheet {
+        fabric: None,
         name: "curtain".to_owned(),
         columns: N,
         rows: N,

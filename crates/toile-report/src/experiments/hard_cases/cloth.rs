@@ -132,7 +132,7 @@ fn needle(lab: &Lab) -> Result<Outcome, LabError> {
     let edges = corners.iter().map(|&start| Edge { start, curve: Curve::Straight, label: None }).collect();
     let placement = Placement { rotation: DQuat::IDENTITY, translation: DVec3::ZERO };
     let panel = Panel { name: "needle".to_owned(), edges, placement };
-    let garment = Garment { name: "needle".to_owned(), panels: vec![panel], seams: Vec::new() };
+    let garment = Garment { name: "needle".to_owned(), panels: vec![panel], seams: Vec::new(), fabric: None };
     let settings = Settings { spacing: 0.02, ..Settings::new(fabric()) };
     let mut model = match Model::from_garment(&garment, &settings) {
         Ok(model) => model,

@@ -143,5 +143,5 @@ fn sample() -> Garment {
     let edges = corners.iter().map(|&start| Edge { start, curve: arc, label: None }).collect();
     let placement = Placement { rotation: DQuat::IDENTITY, translation: DVec3::ZERO };
     let panel = Panel { name: "sample".to_owned(), edges, placement };
-    Garment { name: "sample".to_owned(), panels: vec![panel], seams: Vec::new() }
+    Garment { name: "sample".to_owned(), panels: vec![panel], seams: Vec::new(), fabric: None }
 }

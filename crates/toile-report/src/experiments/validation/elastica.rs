@@ -44,6 +44,7 @@ pub fn cantilever_tip(flexion: Flexion, cells: u32) -> f64 {
     let cell = LENGTH / (f64::from(cells) + 0.5);
     let columns = cells + 2;
     let sheet = Sheet {
+        fabric: None,
         name: "strip".to_owned(),
         columns,
         rows: 3,

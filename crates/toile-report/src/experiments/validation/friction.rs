@@ -34,6 +34,7 @@ pub fn slide(lab: &Lab, degrees: f64, friction: Friction) -> Result<Slide, LabEr
     let (mesh, tilt) = plate(degrees);
     let [right, uphill, normal] = [DVec3::X, tilt * DVec3::NEG_Z, tilt * DVec3::Y];
     let sheet = Sheet {
+        fabric: None,
         name: "sheet".to_owned(),
         columns: 9,
         rows: 9,

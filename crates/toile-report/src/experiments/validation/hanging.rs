@@ -30,6 +30,7 @@ pub fn hanging_strip(rows: u32) -> Option<HangingStrip> {
     settings.fabric.damping = 8.0;
     let cell = 0.5 / f64::from(rows - 1);
     let sheet = Sheet {
+        fabric: None,
         name: "strip".to_owned(),
         columns: 5,
         rows,
@@ -68,6 +69,7 @@ pub fn catenary_sag(span: f64, cells: u32) -> f64 {
     let cell = 1.0 / f64::from(cells);
     let end = cells;
     let sheet = Sheet {
+        fabric: None,
         name: "strip".to_owned(),
         columns: cells + 1,
         rows: 2,

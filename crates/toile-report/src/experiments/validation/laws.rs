@@ -147,6 +147,7 @@ pub(super) fn with_steps(step: StepSettings, settings: &Settings, steps_per_fram
 
 fn sheet(columns: u32) -> Sheet {
     Sheet {
+        fabric: None,
         name: "sheet".to_owned(),
         columns,
         rows: columns,
