@@ -11,7 +11,17 @@ use toile_workspace::gpu;
 /// A sheet of 0.5 m × 0.5 m and 0.2 kg/m² with its outside along `right × down`.
 fn sheet(right: DVec3, down: DVec3, pins: Vec<Pin>) -> Sheet {
     let [columns, rows] = [11, 11];
-    Sheet { name: "sheet".to_owned(), columns, rows, size: DVec2::splat(0.5), corner: DVec3::ZERO, right, down, pins }
+    Sheet {
+        name: "sheet".to_owned(),
+        columns,
+        rows,
+        size: DVec2::splat(0.5),
+        corner: DVec3::ZERO,
+        right,
+        down,
+        pins,
+        fabric: None,
+    }
 }
 
 fn settings(wind: Wind, gravity: DVec3, damping: f64) -> Settings {
