@@ -53,7 +53,6 @@ fn measure(bench: &Bench, body: &Mesh, kind: MapKind) {
         .fold(f64::INFINITY, f64::min);
 
     let sheet = Sheet {
-        fabric: None,
         name: "sheet".to_owned(),
         columns: SIZE,
         rows: SIZE,
@@ -62,6 +61,7 @@ fn measure(bench: &Bench, body: &Mesh, kind: MapKind) {
         right: DVec3::X,
         down: DVec3::NEG_Z,
         pins: Vec::new(),
+        fabric: None,
     };
     let model = Model::from_sheet(&sheet, &scene);
     let settings = StepSettings::new(&scene, &model);

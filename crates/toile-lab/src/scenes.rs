@@ -33,7 +33,6 @@ pub fn hanging_sheet(n: u32) -> (Sheet, Settings) {
 /// A square sheet with its columns along x.
 pub fn square(n: u32, side: f64, corner: DVec3, down: DVec3, pins: Vec<Pin>) -> Sheet {
     Sheet {
-        fabric: None,
         name: "sheet".to_owned(),
         columns: n,
         rows: n,
@@ -42,6 +41,7 @@ pub fn square(n: u32, side: f64, corner: DVec3, down: DVec3, pins: Vec<Pin>) -> 
         right: DVec3::X,
         down,
         pins,
+        fabric: None,
     }
 }
 

@@ -141,7 +141,6 @@ mod tests {
 
     fn scene() -> Scene {
         let sheet = Sheet {
-            fabric: None,
             name: "flag".to_owned(),
             columns: 4,
             rows: 3,
@@ -150,6 +149,7 @@ mod tests {
             right: DVec3::X,
             down: DVec3::Z,
             pins: vec![Pin { column: 3, row: 2 }],
+            fabric: None,
         };
         Scene {
             name: "scene".to_owned(),

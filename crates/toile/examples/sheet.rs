@@ -19,7 +19,6 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let settings = Settings::new(Fabric::preset("cotton").ok_or("cotton is a preset")?);
     let sheet = Sheet {
-        fabric: None,
         name: "sheet".to_owned(),
         columns: 64,
         rows: 64,
@@ -28,6 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         right: DVec3::X,
         down: DVec3::NEG_Z,
         pins: Vec::new(),
+        fabric: None,
     };
     let sphere = Shape::sphere(DVec3::ZERO, 0.25);
     let model = Model::from_sheet(&sheet, &settings);

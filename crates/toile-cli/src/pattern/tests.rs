@@ -21,7 +21,6 @@ fn skirt() -> Pattern {
 fn curtain() -> Pattern {
     let columns = 13;
     let sheet = Sheet {
-        fabric: None,
         name: "a < b & c".to_owned(),
         columns,
         rows: 9,
@@ -30,6 +29,7 @@ fn curtain() -> Pattern {
         right: DVec3::X,
         down: DVec3::NEG_Y,
         pins: [0, columns - 1].map(|column| Pin { column, row: 0 }).to_vec(),
+        fabric: None,
     };
     let open = Model::from_sheet(&sheet, &settings());
     let merge = Merge::identity(open.particle_count());

@@ -17,7 +17,6 @@ fn fabric(spacing: f64, bending_rigidity: f64) -> Settings {
 /// A sheet of so many cells on a side.
 fn sheet(cells: u32, spacing: f64, bending_rigidity: f64) -> Model {
     let sheet = Sheet {
-        fabric: None,
         name: "sheet".into(),
         columns: cells + 1,
         rows: cells + 1,
@@ -26,6 +25,7 @@ fn sheet(cells: u32, spacing: f64, bending_rigidity: f64) -> Model {
         right: DVec3::X,
         down: DVec3::Z,
         pins: vec![],
+        fabric: None,
     };
     Model::from_sheet(&sheet, &fabric(spacing, bending_rigidity))
 }

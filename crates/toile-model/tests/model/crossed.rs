@@ -8,7 +8,6 @@ use toile_scene::{Mesh, Sheet};
 /// A level sheet of 10 × 10 cells of 3 cm around the origin.
 fn sheet() -> Model {
     let sheet = Sheet {
-        fabric: None,
         name: "sheet".into(),
         columns: 11,
         rows: 11,
@@ -17,6 +16,7 @@ fn sheet() -> Model {
         right: DVec3::X,
         down: DVec3::Z,
         pins: vec![],
+        fabric: None,
     };
     Model::from_sheet(&sheet, &settings(0.03))
 }

@@ -27,7 +27,6 @@ fn sheet(columns: u32, rows: u32, pins: Vec<Pin>) -> Model {
 
 fn sheet_of(columns: u32, rows: u32, pins: Vec<Pin>, settings: &Settings) -> Model {
     let sheet = Sheet {
-        fabric: None,
         name: "sheet".into(),
         size: DVec2::new(f64::from(columns - 1), f64::from(rows - 1)) * 0.01,
         columns,
@@ -36,6 +35,7 @@ fn sheet_of(columns: u32, rows: u32, pins: Vec<Pin>, settings: &Settings) -> Mod
         right: DVec3::X,
         down: DVec3::NEG_Y,
         pins,
+        fabric: None,
     };
     Model::from_sheet(&sheet, settings)
 }

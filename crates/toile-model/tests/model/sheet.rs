@@ -1,13 +1,12 @@
 //! Sheets: the grid of D §3.
 
-use crate::support::{check_model, settings, spring_count};
+use crate::support::{alone, check_model, rectangle, settings, spring_count};
 use glam::{DVec3, Vec3, dvec2, dvec3, vec2};
 use toile_model::{Model, SpringKind};
-use toile_scene::{Pin, Sheet};
+use toile_scene::{Fabric, Garment, Pin, Sheet};
 
 fn sheet(columns: u32, rows: u32) -> Sheet {
     Sheet {
-        fabric: None,
         name: "sheet".into(),
         columns,
         rows,
@@ -16,6 +15,7 @@ fn sheet(columns: u32, rows: u32) -> Sheet {
         right: DVec3::X,
         down: DVec3::NEG_Y,
         pins: vec![],
+        fabric: None,
     }
 }
 
@@ -23,6 +23,22 @@ fn model(columns: u32, rows: u32) -> Model {
     let model = Model::from_sheet(&sheet(columns, rows), &settings(1.0));
     check_model(&model);
     model
+}
+
+#[test]
+fn a_model_has_the_numbers_of_its_own_fabric() {
+    let own = Fabric { areal_density: 0.7, structural_stiffness: 3.0, ..settings(1.0).fabric };
+    let fabric = Some(own.clone());
+    let garment = alone(rectangle("panel", [0.2, 0.3], 0.0));
+    let sheets = [sheet(3, 2), Sheet { fabric: fabric.clone(), ..sheet(3, 2) }];
+    let [default, sheet] = sheets.map(|sheet| Model::from_sheet(&sheet, &settings(1.0)));
+    let garments = [garment.clone(), Garment { fabric, ..garment }];
+    let [plain, garment] = garments.map(|garment| Model::from_garment(&garment, &settings(0.05)).expect("it meshes"));
+    for (one, other, area) in [(default, sheet, 0.2 * 0.2), (plain, garment, 0.2 * 0.3)] {
+        let mass = |model: &Model| f64::from(model.masses.iter().sum::<f32>());
+        assert!((mass(&one) - 0.15 * area).abs() < 1e-6 && (mass(&other) - 0.7 * area).abs() < 1e-6);
+        assert_eq!((one.stiffness[0] == 3.0, other.stiffness[0] == 3.0), (false, true));
+    }
 }
 
 #[test]

@@ -10,7 +10,6 @@ fn torn(pins: Vec<Pin>) -> (Model, StepSettings, Particles) {
     let mut settings = Settings::new(Fabric::preset("cotton").expect("cotton is a preset"));
     settings.velocity_modification = VelocityModification::new(Rule::Hierarchical);
     let sheet = Sheet {
-        fabric: None,
         name: "sheet".into(),
         size: DVec2::splat(0.32),
         columns: 33,
@@ -19,6 +18,7 @@ fn torn(pins: Vec<Pin>) -> (Model, StepSettings, Particles) {
         right: DVec3::X,
         down: DVec3::NEG_Y,
         pins,
+        fabric: None,
     };
     let model = Model::from_sheet(&sheet, &settings);
     let step = StepSettings::new(&settings, &model);

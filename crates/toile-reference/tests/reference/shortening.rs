@@ -33,7 +33,6 @@ fn curtain(rule: Rule) -> (Model, StepSettings) {
         ..Settings::new(fabric)
     };
     let sheet = Sheet {
-        fabric: None,
         name: "curtain".to_owned(),
         columns: N,
         rows: N,
@@ -42,6 +41,7 @@ fn curtain(rule: Rule) -> (Model, StepSettings) {
         right: DVec3::X,
         down: DVec3::NEG_Y,
         pins: (0..N).step_by(SWAG as usize).map(|column| Pin { column, row: 0 }).collect(),
+        fabric: None,
     };
     let mut model = Model::from_sheet(&sheet, &settings);
     for (position, i) in model.positions.iter_mut().zip(0..) {

@@ -44,7 +44,6 @@ pub fn cantilever_tip(flexion: Flexion, cells: u32) -> f64 {
     let cell = LENGTH / (f64::from(cells) + 0.5);
     let columns = cells + 2;
     let sheet = Sheet {
-        fabric: None,
         name: "strip".to_owned(),
         columns,
         rows: 3,
@@ -53,6 +52,7 @@ pub fn cantilever_tip(flexion: Flexion, cells: u32) -> f64 {
         right: DVec3::X,
         down: DVec3::Z,
         pins: [0, 1].iter().flat_map(|&column| [0, 1, 2].map(|row| Pin { column, row })).collect(),
+        fabric: None,
     };
     let model = Model::from_sheet(&sheet, &settings);
     assert!(model.bending_carried > 0.999, "the step of this strip carries its rigidity");

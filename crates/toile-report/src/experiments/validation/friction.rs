@@ -34,7 +34,6 @@ pub fn slide(lab: &Lab, degrees: f64, friction: Friction) -> Result<Slide, LabEr
     let (mesh, tilt) = plate(degrees);
     let [right, uphill, normal] = [DVec3::X, tilt * DVec3::NEG_Z, tilt * DVec3::Y];
     let sheet = Sheet {
-        fabric: None,
         name: "sheet".to_owned(),
         columns: 9,
         rows: 9,
@@ -43,6 +42,7 @@ pub fn slide(lab: &Lab, degrees: f64, friction: Friction) -> Result<Slide, LabEr
         right,
         down: uphill,
         pins: Vec::new(),
+        fabric: None,
     };
     let layers = DrawnMaps::draw(&lab.gpu(), settings.maps, &[(&mesh, thickness as f32)], settings.texel as f32)?;
     let colliders = Colliders { maps: Some(layers.maps), shapes: Vec::new() };

@@ -30,7 +30,6 @@ pub fn hanging_strip(rows: u32) -> Option<HangingStrip> {
     settings.fabric.damping = 8.0;
     let cell = 0.5 / f64::from(rows - 1);
     let sheet = Sheet {
-        fabric: None,
         name: "strip".to_owned(),
         columns: 5,
         rows,
@@ -39,6 +38,7 @@ pub fn hanging_strip(rows: u32) -> Option<HangingStrip> {
         right: DVec3::X,
         down: DVec3::NEG_Y,
         pins: (0..5).map(|column| Pin { column, row: 0 }).collect(),
+        fabric: None,
     };
     let model = Model::from_sheet(&sheet, &settings);
     let step = StepSettings::new(&settings, &model);
@@ -69,7 +69,6 @@ pub fn catenary_sag(span: f64, cells: u32) -> f64 {
     let cell = 1.0 / f64::from(cells);
     let end = cells;
     let sheet = Sheet {
-        fabric: None,
         name: "strip".to_owned(),
         columns: cells + 1,
         rows: 2,
@@ -78,6 +77,7 @@ pub fn catenary_sag(span: f64, cells: u32) -> f64 {
         right: DVec3::X,
         down: DVec3::Z,
         pins: [0, end].iter().flat_map(|&column| [0, 1].map(|row| Pin { column, row })).collect(),
+        fabric: None,
     };
     let mut model = Model::from_sheet(&sheet, &settings);
     // It starts as a V, which is as long as the cloth.

@@ -147,7 +147,6 @@ pub(super) fn with_steps(step: StepSettings, settings: &Settings, steps_per_fram
 
 fn sheet(columns: u32) -> Sheet {
     Sheet {
-        fabric: None,
         name: "sheet".to_owned(),
         columns,
         rows: columns,
@@ -156,5 +155,6 @@ fn sheet(columns: u32) -> Sheet {
         right: DVec3::X,
         down: DVec3::Z,
         pins: Vec::new(),
+        fabric: None,
     }
 }
