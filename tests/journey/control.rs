@@ -88,6 +88,107 @@ fn what_no_cloth_has_is_an_error_and_changes_nothing() {
     assert_eq!(error.to_string(), "fabric.thickness is 1 and must be 0 to 0.05 m");
 }
 
+/// Air, a pressure and shapes come and go in a run that began without any. What lasts no time leaves no trace, to the last bit.
+#[test]
+fn a_scene_need_not_begin_with_wind_or_shapes() {
+    let scene = rolling(2);
+    let mut undisturbed = start(&scene);
+    let mut simulation = start(&scene);
+    for simulation in [&mut undisturbed, &mut simulation] {
+        advance_for(simulation, 3);
+        // Within an interval of the maps, and a particle is held on the way.
+        control(simulation, |control| control.pins[1].extend([(0, DVec3::new(-0.5, 0.3, 0.5))]))
+            .expect("it is in range");
+        advance(simulation, 0.7 * FRAME);
+    }
+    let before = positions(&simulation);
+    let far = Shape::sphere(dvec3(0.0, -9.0, 0.0), 0.1);
+    control(&mut simulation, |control| {
+        control.wind = Some(Wind { pressure: 3.0, ..Wind::new(dvec3(-6.0, 0.0, 0.0)) });
+        control.shapes = vec![far.clone(), far.clone()];
+    })
+    .expect("it fits the device");
+    assert_eq!(positions(&simulation), before);
+    assert_eq!((simulation.time(), simulation.control().shapes.len()), (undisturbed.time(), 2));
+    let steps = |simulation: &Simulation| simulation.cloths().map(|worn| worn.cloth.step()).collect::<Vec<_>>();
+    assert_eq!(steps(&simulation), steps(&undisturbed), "shapes move on this clock");
+    control(&mut simulation, |control| {
+        control.wind = None;
+        control.shapes.clear();
+    })
+    .expect("it fits the device");
+    for simulation in [&mut undisturbed, &mut simulation] {
+        for _ in 0..4 {
+            advance(simulation, 1.3 * FRAME);
+        }
+    }
+    assert_eq!(positions(&simulation), positions(&undisturbed), "what is not there any more did nothing");
+    // What stays acts: the air takes the cloth along, and a sphere lifts it.
+    let mut checkpoint = None;
+    gpu().run(|encoder| checkpoint = Some(simulation.checkpoint(encoder)));
+    let start = places(&simulation, 1);
+    // Below a corner of the inner sheet, which hangs down and will meet it.
+    let centre = places(&simulation, 0)[0] - 0.15 * Vec3::Y;
+    control(&mut simulation, |control| {
+        control.pins[1].clear();
+        control.wind = Some(Wind::new(dvec3(0.0, 0.0, 9.0)));
+        control.shapes = vec![Shape::sphere(centre.as_dvec3(), 0.12)];
+    })
+    .expect("it fits the device");
+    advance_for(&mut simulation, 12);
+    control(&mut undisturbed, |control| control.pins[1].clear()).expect("it is in range");
+    advance_for(&mut undisturbed, 12);
+    assert!(places(&simulation, 1)[0].distance(start[0]) > 0.01, "what was held is let go");
+    let [blown, calm] = [&simulation, &undisturbed].map(|simulation| mean(&places(simulation, 1)));
+    assert!(blown.z > calm.z + 0.05, "the air takes it along: {blown} and {calm}");
+    let nearest = |simulation: &Simulation| {
+        places(simulation, 0).iter().map(|place| place.distance(centre)).fold(f32::MAX, f32::min)
+    };
+    let [with, without] = [&simulation, &undisturbed].map(nearest);
+    assert!((0.12..0.15).contains(&with), "the corner lies on the sphere: {with} m from its centre");
+    assert!(without > 0.3, "without it, it falls past: {without} m");
+    // A checkpoint from before knows neither.
+    let checkpoint = checkpoint.expect("it was made");
+    gpu().run(|encoder| simulation.reset(encoder, &checkpoint).expect("it goes back"));
+    assert_eq!(places(&simulation, 1), start);
+    assert_eq!((simulation.control().wind, simulation.control().shapes.len()), (None, 0));
+}
+
+/// A sheet that has met nothing when a checkpoint is made, and then lies on a sphere.
+#[test]
+fn a_checkpoint_from_before_any_shape_is_gone_back_to() {
+    let mut scene = rolling(1);
+    scene.bodies.clear();
+    let mut simulation = start(&scene);
+    advance_for(&mut simulation, 2);
+    let mut checkpoint = None;
+    gpu().run(|encoder| checkpoint = Some(simulation.checkpoint(encoder)));
+    let checkpoint = checkpoint.expect("it was made");
+    let mut ends = Vec::new();
+    for with_sphere in [false, true, false] {
+        if with_sphere {
+            let sphere = Shape::sphere(DVec3::ZERO, 0.25);
+            control(&mut simulation, |control| control.shapes = vec![sphere.clone()]).expect("it fits the device");
+        }
+        advance_for(&mut simulation, 6);
+        ends.push(places(&simulation, 0));
+        gpu().run(|encoder| simulation.reset(encoder, &checkpoint).expect("it goes back"));
+    }
+    let lowest = |places: &[Vec3]| places.iter().map(|place| place.length()).fold(f32::MAX, f32::min);
+    assert!(lowest(&ends[1]) > 0.25 && lowest(&ends[0]) < 0.25, "{} and {}", lowest(&ends[1]), lowest(&ends[0]));
+    assert_eq!(ends[0], ends[2], "bit for bit");
+}
+
+#[test]
+fn air_that_comes_while_a_body_is_dressed_is_felt_from_the_run_on() {
+    let mut simulation = start(&walking(&["skirt"], "walk_loop"));
+    advance(&mut simulation, FRAME);
+    control(&mut simulation, |control| control.wind = Some(Wind::new(DVec3::X)))
+        .expect("garments are dressed without it");
+    advance(&mut simulation, FRAME);
+    assert_eq!(simulation.stage().expect("it is finite"), Stage::Sewing);
+}
+
 #[test]
 fn each_cloth_has_a_fabric_of_its_own() {
     let mut scene = rolling(2);

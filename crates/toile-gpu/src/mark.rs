@@ -31,9 +31,14 @@ impl Solver {
     /// When the mark is that of another cloth.
     pub fn record_reset(&mut self, encoder: &mut wgpu::CommandEncoder, mark: &Mark) {
         for (name, buffer) in self.state() {
-            let kept = mark.buffers.iter().find(|(known, kept)| *known == name && kept.size() == buffer.size());
-            let (_, kept) = kept.expect("a mark is that of the same cloth");
-            encoder.copy_buffer_to_buffer(kept, 0, buffer, 0, buffer.size());
+            match mark.buffers.iter().find(|(known, _)| *known == name) {
+                Some((_, kept)) => {
+                    assert_eq!(kept.size(), buffer.size(), "a mark is that of the same cloth");
+                    encoder.copy_buffer_to_buffer(kept, 0, buffer, 0, buffer.size());
+                }
+                // It has come with passes that the cloth had not then: nothing was in it.
+                None => encoder.clear_buffer(buffer, 0, None),
+            }
         }
         self.resume(mark.step, None);
     }

@@ -336,6 +336,15 @@ impl Solver {
         compute.dispatch_workgroups(x, y, 1);
     }
 
+    /// Whether it has the passes for these numbers of a step, and room for so many shapes: others need a solver of their own.
+    pub fn has_passes_of(&self, settings: &StepSettings, shape_count: usize) -> bool {
+        let has = |kernel| self.bound.iter().any(|bound| bound.kernel == kernel);
+        let pressure = settings.wind.map_or(0.0, |wind| wind.pressure);
+        (settings.wind.is_none() || has(Kernel::QuadWind))
+            && (pressure == 0.0 || has(Kernel::PressureForces))
+            && shape_count == self.shapes.len()
+    }
+
     /// Records other numbers of a step: they hold for what is recorded from now on.
     ///
     /// # Panics
@@ -359,15 +368,9 @@ impl Solver {
             passes(settings) == passes(&self.settings),
             "gravity, wind, damping, friction and reflection change while a cloth runs, nothing else of its step"
         );
-        let has = |kernel| self.bound.iter().any(|bound| bound.kernel == kernel);
-        let pressure = settings.wind.map_or(0.0, |wind| wind.pressure);
         assert!(
-            settings.wind.is_none() || has(Kernel::QuadWind),
-            "a cloth without air gets none while it runs: begin with a calm"
-        );
-        assert!(
-            pressure == 0.0 || has(Kernel::PressureForces),
-            "a cloth without pressure gets none while it runs: begin with a small one"
+            self.has_passes_of(settings, self.shapes.len()),
+            "a cloth without air or pressure gets none while it runs: begin with a calm, or a small pressure"
         );
         self.settings = settings.clone();
         self.record_constant(device, encoder, "step", &uniform(&step_params(self.counts, settings, self.after_maps)));

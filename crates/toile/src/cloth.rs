@@ -133,6 +133,11 @@ impl Cloth {
         self.solver.record_carry(device, encoder, carry);
     }
 
+    /// Whether it has the passes for these numbers of a step, and room for so many shapes.
+    pub(crate) fn has_passes_of(&self, settings: &StepSettings, shape_count: usize) -> bool {
+        self.solver.has_passes_of(settings, shape_count)
+    }
+
     /// Records other numbers of a step, of which gravity, wind, damping, friction and reflection may change: they hold for what is recorded from now on.
     /// [`StepSettings::with_numbers_of`] makes them.
     ///

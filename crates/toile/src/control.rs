@@ -12,8 +12,8 @@ const FARTHEST: f64 = 1e6;
 /// What changes while a simulation runs, without new buffers or pipelines. A host takes [`Simulation::control`](crate::Simulation::control), changes what it likes
 /// and gives it back to [`Simulation::set_control`](crate::Simulation::set_control).
 ///
-/// What a pass hangs on stays as the scene has it: air where there is none, a pressure where there is none, the number of shapes. A host that
-/// wants wind later begins with `Wind::new(DVec3::ZERO)`.
+/// Air or pressure where there was none, and another number of shapes, need other passes: then the run goes on in new buffers, which takes as long as
+/// the start of a cloth. A host takes [`Cloth::frame`](crate::Cloth::frame) anew then.
 ///
 /// ```no_run
 /// # use toile::glam::dvec3;
@@ -36,7 +36,7 @@ pub struct Control {
     /// What each cloth of the scene is made of, in its order. Density and thickness stay. Stiffness, rigidity and threshold make the numbers of springs and limits anew on the CPU,
     /// which takes as long as meshing does; damping and friction cost nothing.
     pub fabrics: Vec<Fabric>,
-    /// The shapes, as many as the scene has. Each moves on the clock of [`Simulation::time`](crate::Simulation::time).
+    /// The shapes; as many as before until all go together. Each moves on the clock of [`Simulation::time`](crate::Simulation::time).
     pub shapes: Vec<Shape>,
     /// For each cloth of the scene, in its order, the particles that are held, and where each is at the end of the next
     /// [`Simulation::advance`](crate::Simulation::advance) that does a step [m]. In the beginning those are the pins of the sheets. They are held once the run has begun.
@@ -71,13 +71,21 @@ impl Control {
         same != *fabric
     }
 
+    /// Whether it may ask for passes that a cloth under another control has not.
+    pub(crate) fn may_ask_for_passes(&self, before: &Self) -> bool {
+        let asks = |control: &Self| {
+            let presses = control.wind.is_some_and(|wind| wind.pressure != 0.0);
+            (control.wind.is_some(), presses, control.shapes.len())
+        };
+        asks(self) != asks(before)
+    }
+
     /// # Errors
     /// [`Error::Model`] when a number is out of its range.
     ///
     /// # Panics
     /// When it is of another scene, or changes what stays.
     pub(crate) fn check(&self, before: &Self, settings: &Settings) -> Result<(), Error> {
-        assert_eq!(self.shapes.len(), before.shapes.len(), "a simulation keeps as many shapes as its scene has");
         assert_eq!(self.pins.len(), before.pins.len(), "a control has pins for each cloth of the scene");
         assert_eq!(self.fabrics.len(), before.fabrics.len(), "a control has a fabric for each cloth of the scene");
         let lasting = |fabrics: &[Fabric]| -> Vec<[f64; 2]> {

@@ -20,11 +20,12 @@ impl Simulation {
     /// one sets it again.
     ///
     /// # Errors
-    /// [`Error::Model`] when a number is out of its range, or a stiffness asks for a shorter step than the cloth has. Then nothing is changed.
+    /// [`Error::Model`] when a number is out of its range, or a stiffness asks for a shorter step than the cloth has; [`Error::Gpu`] when what it asks for
+    /// does not fit the device. Then nothing is changed.
     ///
     /// # Panics
-    /// When something changes that stays: density, thickness, the number of shapes, air or pressure where the scene has none; and when a
-    /// particle that is held does not exist.
+    /// When something changes that stays: density, thickness, and the number of shapes while garments are dressed; and when a particle that is
+    /// held does not exist.
     pub fn set_control(&mut self, encoder: &mut wgpu::CommandEncoder, control: &Control) -> Result<(), Error> {
         control.check(&self.control, &self.settings)?;
         for (piece, pins) in self.pieces.iter().zip(&control.pins) {
@@ -32,23 +33,40 @@ impl Simulation {
             let last = pins.last_key_value().map_or(0, |(particle, _)| *particle);
             assert!(pins.is_empty() || last < count, "{} has {count} particles, and no particle {last}", piece.name);
         }
+        assert!(
+            matches!(self.phase, Phase::Together { .. }) || control.shapes.len() == self.control.shapes.len(),
+            "while garments are dressed there are as many shapes as the scene has"
+        );
         let settings = control.settings(&self.settings);
         let changed = |index: &usize| control.changes_model(*index, &self.control.fabrics[*index]);
         let changed: Vec<usize> = (0..self.pieces.len()).filter(changed).collect();
         let changes_model = !changed.is_empty();
         let changes_shapes = control.shapes != self.control.shapes;
-        let mut cloths = self.scene_cloths.clone();
-        cloths.iter_mut().zip(&control.fabrics).for_each(|(cloth, fabric)| cloth.set_fabric(fabric.clone()));
-        let remade = changed.iter().map(|index| self.pieces[*index].of_other_fabric(&cloths[*index], &settings));
+        // Most calls move a pin: only what may be taken back is kept.
+        let pieces_before = control.may_ask_for_passes(&self.control).then(|| self.pieces.clone());
+        let remade = changed.iter().map(|index| {
+            let mut cloth = self.scene_cloths[*index].clone();
+            cloth.set_fabric(control.fabrics[*index].clone());
+            self.pieces[*index].of_other_fabric(&cloth, &settings)
+        });
         for (index, piece) in changed.iter().zip(remade.collect::<Result<Vec<_>, _>>()?) {
             self.pieces[*index] = piece;
         }
-        self.scene_cloths = cloths;
         let pieces = self.pieces.iter_mut().zip(&control.fabrics);
         pieces.for_each(|(piece, fabric)| piece.take_numbers(&settings, fabric));
-        self.settings = settings;
-        self.bodies.shapes.clone_from(&control.shapes);
-        self.control = control.clone();
+        let before = (
+            std::mem::replace(&mut self.settings, settings),
+            std::mem::replace(&mut self.bodies.shapes, control.shapes.clone()),
+            std::mem::replace(&mut self.control, control.clone()),
+        );
+        if self.wants_other_passes() {
+            if let Err(error) = self.go_on_in_new_buffers(encoder) {
+                (self.settings, self.bodies.shapes, self.control) = before;
+                self.pieces = pieces_before.unwrap_or_else(|| std::mem::take(&mut self.pieces));
+                return Err(error);
+            }
+            return Ok(());
+        }
         self.tell_numbers(encoder, changes_model);
         if changes_shapes {
             let shapes = self.bodies.shapes.clone();
@@ -56,6 +74,36 @@ impl Simulation {
         }
         if let Phase::Together { outfit, stage: Stage::Running, .. } = &mut self.phase {
             outfit.set_pins(control.pins.iter());
+        }
+        Ok(())
+    }
+
+    /// Whether all go together and a cloth lacks a pass, or room for the shapes.
+    fn wants_other_passes(&self) -> bool {
+        let Phase::Together { outfit, stage, .. } = &self.phase else { return false };
+        let first = self.pieces.first().map_or(1, |piece| piece.step.steps_per_frame);
+        let mut worn = self.pieces.iter().zip(outfit.cloths());
+        worn.any(|(piece, cloth)| {
+            !cloth.has_passes_of(&self.step_together(piece, *stage, first), self.bodies.shapes.len())
+        })
+    }
+
+    /// Has all go on in an outfit of the present settings and shapes.
+    fn go_on_in_new_buffers(&mut self, encoder: &mut wgpu::CommandEncoder) -> Result<(), Error> {
+        let Phase::Together { outfit: before, stage, garment_bounds } = &self.phase else { return Ok(()) };
+        let mut outfit = self.outfit(*stage, garment_bounds)?;
+        outfit.go_on_from(encoder, before)?;
+        if *stage == Stage::Running {
+            if self.keeps_maps {
+                outfit.keep_maps(&self.kernels, &self.bodies.moving[0], &mut |_, record| {
+                    record(encoder);
+                    Ok(())
+                })?;
+            }
+            outfit.set_pins(self.control.pins.iter());
+        }
+        if let Phase::Together { outfit: before, .. } = &mut self.phase {
+            **before = outfit;
         }
         Ok(())
     }

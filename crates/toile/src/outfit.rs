@@ -422,6 +422,24 @@ impl Outfit {
         self.done *= (before / self.part_seconds()).round() as u64;
     }
 
+    /// Records that it goes on where another outfit of the same cloths and bodies is, which has other passes.
+    pub(crate) fn go_on_from(&mut self, encoder: &mut wgpu::CommandEncoder, before: &Outfit) -> Result<(), Error> {
+        self.know_pins(before.pins().cloned());
+        self.set_place(before.place);
+        if let Some(middle) = before.middle() {
+            self.stand_around(middle);
+        }
+        self.teleports.clone_from(&before.teleports);
+        self.resume(before.done);
+        for (layer, from) in self.layers.iter_mut().zip(before.cloths()) {
+            from.record_state(encoder, &layer.cloth);
+            layer.cloth.resume(from.step(), from.status()?);
+            // A renderer may draw it before the next step.
+            layer.cloth.record_normals(encoder);
+        }
+        Ok(())
+    }
+
     /// Parts done.
     pub(crate) fn done(&self) -> u64 {
         self.done
