@@ -4,7 +4,9 @@ use crate::bodies::{meshes, shapes};
 use crate::look::{Look, State};
 use anyhow::{Result, bail};
 use toile::Stage;
-use toile::model::{Dressing, DressingStage, Judged, Merge, Motion, Open, Piece, Solid, StepSettings, Verdict};
+use toile::model::{
+    Dressing, DressingStage, Judged, Merge, Motion, Open, Piece, Solid, StepSettings, Verdict, raised_ways,
+};
 use toile::scene::{MapKind, Mesh, Scene, Shape};
 use toile_reference::maps::{BodyMaps, Surface};
 use toile_reference::{Colliders, Reference};
@@ -112,7 +114,11 @@ impl ReferenceRun {
             piece.let_out_at(worn.motion.positions());
         }
         if dressing.stage() == DressingStage::Dressed && !is_last {
-            let (positions, normals) = (worn.reference.positions().to_vec(), worn.reference.normals());
+            let (mut positions, normals) = (worn.reference.positions().to_vec(), worn.reference.normals());
+            // As those over it see it.
+            let thicknesses: Vec<f32> = self.pieces.iter().map(|piece| piece.step.thickness).collect();
+            let way = raised_ways(&thicknesses)[self.worn.len() - 1];
+            positions.iter_mut().zip(&normals).for_each(|(position, normal)| *position += *normal * way);
             self.layers.push((Mesh { positions, normals, triangles: piece.model.triangles() }, true));
             self.begin();
         }

@@ -370,7 +370,7 @@ impl Solver {
         );
         assert!(
             self.has_passes_of(settings, self.shapes.len()),
-            "a cloth without air or pressure gets none while it runs: begin with a calm, or a small pressure"
+            "a cloth without air gets none while it runs, and one without pressure no pressure: begin with a calm, or a small pressure"
         );
         self.settings = settings.clone();
         self.record_constant(device, encoder, "step", &uniform(&step_params(self.counts, settings, self.after_maps)));

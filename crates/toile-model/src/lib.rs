@@ -26,7 +26,7 @@ pub use mesh::inside::Inside;
 pub use run::dressing::{Dressing, DressingStage};
 pub use run::map_box::MapBox;
 pub use run::motion::Motion;
-pub use run::piece::{Open, Piece};
+pub use run::piece::{Open, Piece, raised_ways};
 pub use run::pin_target::PinTarget;
 pub use run::shape_step::{ShapeKind, ShapeStep};
 pub use run::side_box::SideBox;

@@ -12,7 +12,7 @@ pub struct Garment {
     pub panels: Vec<Panel>,
     /// Pairs of panel edges that are sewn together.
     pub seams: Vec<Seam>,
-    /// What it is made of; `None` is the fabric of the settings. It keeps its own thickness from what is below it.
+    /// What it is made of; `None` is the fabric of the settings. It keeps its own thickness from the body, and the larger of both from a garment below.
     pub fabric: Option<Fabric>,
 }
 

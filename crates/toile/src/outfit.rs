@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
-use toile_gpu::{BodyMaps, HostVertices, Kernels, MapsFault, MovingBody, Surface, Trail};
-use toile_model::{MapBox, Model, StepSettings};
+use toile_gpu::{BodyMaps, HostVertices, Kernels, MapsFault, MovingBody, Raised, Surface, Trail};
+use toile_model::{MapBox, Model, StepSettings, raised_ways};
 use toile_scene::{Lead, Mesh, Motion, MovingMesh, Shape};
 
 /// Maps of moving bodies are drawn so often at least [1/s]; in between, surfaces go straight on by the velocity map.
@@ -119,6 +119,8 @@ struct Layer {
 struct Seen {
     surface: Surface,
     trail: Trail,
+    /// Where one over it is thinner.
+    raised: Option<Raised>,
 }
 
 /// How often the maps are drawn in a frame of so many steps: at least at the map rate, and so that the steps divide evenly.
@@ -154,7 +156,8 @@ impl Outfit {
         let has_meshes = !(moving.is_empty() && still.is_empty());
         let outermost = cloths.len().saturating_sub(1);
         let mut layers: Vec<Layer> = Vec::new();
-        for Laid { model, step, is_worn, pins } in cloths {
+        let ways = raised_ways(&cloths.iter().map(|cloth| cloth.step.thickness).collect::<Vec<_>>());
+        for (Laid { model, step, is_worn, pins }, way) in cloths.iter().zip(ways) {
             // Where there is no body to see, the innermost cloth sees nothing.
             let space = space.as_ref().filter(|_| has_meshes || !layers.is_empty());
             let maps = space.map(|space| BodyMaps::new(kernels, space)).transpose()?.map(Arc::new);
@@ -162,9 +165,11 @@ impl Outfit {
             let cloth = Cloth::new(kernels, model, step, colliders)?;
             let drawn = cloth.frame();
             let seen = (layers.len() < outermost).then(|| {
-                let trail = Trail::new(kernels, &drawn.positions, drawn.particle_count);
-                let surface = Surface { velocities: Some(trail.velocities().clone()), ..drawn.surface(device) };
-                Seen { surface, trail }
+                let mut surface = drawn.surface(device);
+                let raised = raised(kernels, &mut surface, drawn.particle_count, way);
+                let trail = Trail::new(kernels, &surface.positions, drawn.particle_count);
+                surface.velocities = Some(trail.velocities().clone());
+                Seen { surface, trail, raised }
             });
             layers.push(Layer { cloth, is_worn: *is_worn, pins: pins.clone(), maps, seen });
         }
@@ -552,13 +557,18 @@ impl Outfit {
             }
             let steps = layer.cloth.settings().steps_per_frame / self.maps_per_frame;
             if let Some(seen) = &mut layer.seen {
+                if let Some(raised) = &seen.raised {
+                    layer.cloth.record_normals(encoder);
+                    raised.record(encoder);
+                }
                 seen.trail.record_leaving(encoder);
             }
             layer.cloth.record_steps(device, encoder, 0..steps, steps);
             if let Some(seen) = &mut layer.seen {
                 // The cloth over this one sees it as it is now.
-                seen.trail.record_arrival(device, encoder, interval);
                 layer.cloth.record_normals(encoder);
+                seen.raised.iter().for_each(|raised| raised.record(encoder));
+                seen.trail.record_arrival(device, encoder, interval);
             }
         }
     }
@@ -595,10 +605,21 @@ impl Outfit {
 
     /// Bytes on the device beside those of the cloths.
     pub(crate) fn bytes(&self) -> u64 {
-        let trails = self.layers.iter().flat_map(|layer| &layer.seen).map(|seen| seen.trail.bytes());
+        let seen = self.layers.iter().flat_map(|layer| &layer.seen);
+        let trails = seen.map(|seen| seen.trail.bytes() + seen.raised.as_ref().map_or(0, Raised::bytes));
         let kept = self.kept.iter().flat_map(|kept| &kept.maps).map(|(maps, _)| maps.bytes());
         self.moving.iter().map(MovingBody::bytes).sum::<u64>() + trails.sum::<u64>() + kept.sum::<u64>()
     }
+}
+
+/// What raises a surface by a way [m], and has it be the raised one; `None` where it stays.
+pub(crate) fn raised(kernels: &Kernels, surface: &mut Surface, vertex_count: u32, way: f32) -> Option<Raised> {
+    (way > 0.0).then(|| {
+        let raised = Raised::new(kernels, [&surface.positions, &surface.normals], vertex_count, way);
+        surface.positions = raised.positions().clone();
+        surface.normals = raised.normals().clone();
+        raised
+    })
 }
 
 /// How many maps a round of a body has, one every `interval` seconds; `None` when its motion is not closed or not a whole number of

@@ -5,7 +5,7 @@ use crate::clock::{Advance, Clock};
 use crate::control::{Control, pins_of};
 use crate::dressed::{Bounds, Done, Dressed};
 use crate::fitting::Fitting;
-use crate::outfit::{Bodies, Laid, Outfit, Part, Recorder, Teleport, maps_of_round, maps_per_frame};
+use crate::outfit::{Bodies, Laid, Outfit, Part, Recorder, Teleport, maps_of_round, maps_per_frame, raised};
 use crate::pins::Pins;
 use crate::stage::Stage;
 use crate::{Cloth, Colliders, Error, pose};
@@ -14,6 +14,7 @@ use std::sync::Arc;
 use toile_gpu::{BodyMaps, HostVertices, Kernels, MapSpace, Surface, readback};
 use toile_model::{
     Dressing, DressingStage, Finding, Fit, FitOptions, Judged, MapBox, Model, Piece, Solid, StepSettings, Verdict,
+    raised_ways,
 };
 use toile_scene::{Body, Cloth as Cut, Mesh, Motion, MovingMesh, Scene, Settings};
 
@@ -345,10 +346,22 @@ impl Simulation {
         let maps = BodyMaps::new(&self.kernels, &MapSpace { kind: self.settings.maps, map_box, moving: false, area })?;
         let surface = |mesh: &&Mesh| Surface::new(&self.device, mesh, map_box.texel);
         let mut surfaces: Vec<Surface> = meshes.iter().map(surface).collect();
-        surfaces.extend(garments.iter().map(|done| done.cloth.frame().surface(&self.device)));
+        let thicknesses: Vec<f32> = self.pieces.iter().map(|piece| piece.step.thickness).collect();
+        let ways = raised_ways(&thicknesses).into_iter().zip(&self.pieces);
+        let ways = ways.filter(|(_, piece)| piece.open.is_some()).map(|(way, _)| way);
+        let mut raisings = Vec::new();
+        for (done, way) in garments.iter().zip(ways) {
+            let frame = done.cloth.frame();
+            let mut surface = frame.surface(&self.device);
+            raisings.extend(raised(&self.kernels, &mut surface, frame.particle_count, way));
+            surfaces.push(surface);
+        }
         let thickness = self.thickness();
         let drawn: Vec<_> = surfaces.iter().map(|surface| (surface, thickness)).collect();
-        recorder(Part::Maps, &mut |encoder| maps.record(&self.device, encoder, map_box, &drawn))?;
+        recorder(Part::Maps, &mut |encoder| {
+            raisings.iter().for_each(|raised| raised.record(encoder));
+            maps.record(&self.device, encoder, map_box, &drawn);
+        })?;
         Ok(Some(Arc::new(maps)))
     }
 

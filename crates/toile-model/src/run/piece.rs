@@ -46,6 +46,16 @@ struct Sewn {
     step: StepSettings,
 }
 
+/// How far each of some cloths, from the inside out, is raised in what those over it see [m], by their thicknesses [m]. An outer one keeps its own thickness from
+/// what is below; where that is thicker, the outer face of what is below would show through it.
+pub fn raised_ways(thicknesses: &[f32]) -> Vec<f32> {
+    let way = |index: usize| {
+        let thinnest = thicknesses[index + 1..].iter().copied().reduce(f32::min);
+        thinnest.map_or(0.0, |thinnest| (thicknesses[index] - thinnest).max(0.0))
+    };
+    (0..thicknesses.len()).map(way).collect()
+}
+
 impl Piece {
     /// The cloths of a scene, in its order.
     ///
@@ -185,5 +195,26 @@ impl Piece {
         let [low, high] = [positions().reduce(Vec3::min)?, positions().reduce(Vec3::max)?];
         let side = (high - low).max_element();
         Some([low - side, high + side])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::raised_ways;
+
+    #[test]
+    fn what_is_thicker_than_one_over_it_is_raised_by_the_rest() {
+        for (thicknesses, ways) in [
+            (&[] as &[f32], &[] as &[f32]),
+            (&[0.003], &[0.0]),
+            (&[0.003, 0.003], &[0.0, 0.0]),
+            (&[0.0015, 0.003], &[0.0, 0.0]),
+            (&[0.003, 0.0015], &[0.0015, 0.0]),
+            (&[0.004, 0.006, 0.001, 0.002], &[0.003, 0.005, 0.0, 0.0]),
+        ] {
+            let found = raised_ways(thicknesses);
+            assert_eq!(found.len(), ways.len());
+            assert!(found.iter().zip(ways).all(|(a, b)| (a - b).abs() < 1e-7), "{thicknesses:?}: {found:?}");
+        }
     }
 }
