@@ -115,11 +115,12 @@ impl ReferenceRun {
         }
         if dressing.stage() == DressingStage::Dressed && !is_last {
             let (mut positions, normals) = (worn.reference.positions().to_vec(), worn.reference.normals());
+            let triangles = piece.model.triangles();
             // As those over it see it.
             let thicknesses: Vec<f32> = self.pieces.iter().map(|piece| piece.step.thickness).collect();
             let way = raised_ways(&thicknesses)[self.worn.len() - 1];
             positions.iter_mut().zip(&normals).for_each(|(position, normal)| *position += *normal * way);
-            self.layers.push((Mesh { positions, normals, triangles: piece.model.triangles() }, true));
+            self.layers.push((Mesh { positions, normals, triangles }, true));
             self.begin();
         }
         Ok(steps)
