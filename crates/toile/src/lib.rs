@@ -34,6 +34,7 @@ pub use outfit::Teleport;
 pub use simulation::{Simulation, Worn};
 pub use stage::Stage;
 pub use strain::Strain;
+#[cfg(feature = "files")]
 #[doc(inline)]
 pub use toile_files as files;
 #[doc(inline)]
@@ -44,11 +45,11 @@ pub use toile_model as model;
 pub use toile_scene as scene;
 
 /// Compiles the example of the README.
-#[cfg(doctest)]
+#[cfg(all(doctest, feature = "files"))]
 #[doc = include_str!("../../../README.md")]
 struct Readme;
 
 /// Compiles the examples of the page for hosts.
-#[cfg(doctest)]
+#[cfg(all(doctest, feature = "files"))]
 #[doc = include_str!("../../../docs/hosting.md")]
 struct Hosting;

@@ -18,9 +18,10 @@ const UNITS: [&str; 19] = [
     "texel", "px",
 ];
 
-/// Packages every library crate, builds for a browser, and follows the links of the library's pages.
+/// Packages every library crate, builds the library without its features and for a browser, and follows the links of its pages.
 pub fn check() -> Result<(), String> {
     package()?;
+    cargo(&["check", "--package", "toile", "--no-default-features"])?;
     browser()?;
     intra_doc_links()?;
     pages()
