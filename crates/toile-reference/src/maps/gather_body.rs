@@ -29,10 +29,10 @@ impl Attribute<'_> {
     }
 }
 
-/// Positions [m] and unit normals, each of shape [count], as they will be `ahead`: in seconds by velocities, in ways from the positions before. A
+/// Positions [m] and unit normals, each of shape [vertex_count], as they will be `ahead`: in seconds by velocities, in ways from the positions before. A
 /// normal without length becomes +y.
 pub fn gather_body(
-    count: usize,
+    vertex_count: usize,
     positions: Attribute<'_>,
     normals: Attribute<'_>,
     motion: HostMotion<'_>,
@@ -51,5 +51,5 @@ pub fn gather_body(
         let length = normal.length();
         if length > 0.0 { normal / length } else { Vec3::Y }
     };
-    [(0..count).map(gone).collect(), (0..count).map(unit).collect()]
+    [(0..vertex_count).map(gone).collect(), (0..vertex_count).map(unit).collect()]
 }
