@@ -263,6 +263,34 @@ fn an_outfit_mixes_thicknesses() {
     }
 }
 
+/// The same while garments are dressed: a shirt of 3 mm sees the outer face of a skirt of 9 mm, not its particles.
+#[test]
+fn a_thin_garment_is_dressed_over_the_outer_face_of_a_thick_one() {
+    let mut scene = walking(&["skirt", "shirt_sleeves"], "apose_to_walk");
+    for (cloth, thickness) in scene.cloths.iter_mut().zip([0.009, 0.003]) {
+        cloth.set_fabric(Fabric { thickness, ..scene.settings.fabric.clone() });
+    }
+    let mut simulation = start(&scene);
+    while simulation.cloths().count() < 2 {
+        advance(&mut simulation, FRAME);
+        simulation.stage().expect("it is finite");
+    }
+    let worn: Vec<_> = simulation.cloths().collect();
+    let [places, normals] = [&worn[0].cloth.frame().positions, &worn[0].cloth.frame().normals].map(|b| gpu().vec3s(b));
+    let maps = worn[1].cloth.maps().expect("there are maps");
+    let maps = toile_lab::read_maps(gpu(), maps, maps.space().map_box).expect("the device answers");
+    let settings = toile_model::StepSettings { swept: false, ..worn[1].cloth.settings().clone() };
+    let points: Vec<Vec3> = places.iter().zip(&normals).map(|(place, normal)| *place + 0.014 * *normal).collect();
+    let still = vec![Vec3::ZERO; points.len()];
+    let probes = toile_reference::step::sample_body_maps(&points, &still, &maps, Default::default(), &settings);
+    // What is free of the shirt's thickness, beyond the 9 mm of the skirt: where the nearest is the skirt.
+    let mut free: Vec<f32> = probes.iter().filter(|probe| probe.hit).map(|probe| probe.distance).collect();
+    free.sort_by(f32::total_cmp);
+    let median = free[free.len() / 2];
+    assert!(free.len() > places.len() / 2, "{} of {} see it", free.len(), places.len());
+    assert!((median - 0.005).abs() < 1e-3, "14 mm from its particles the shirt has {median} m to go");
+}
+
 #[test]
 fn shapes_follow_the_host_and_a_reset_undoes_all_of_it() {
     let mut scene = rolling(2);
