@@ -5,7 +5,9 @@ mod gltf_file;
 pub(crate) mod gltf_rig;
 pub(crate) mod mesh_sequence;
 pub(crate) mod moving_body;
+mod number;
 mod obj;
+mod obj_lines;
 mod ply;
 mod ply_header;
 mod soup;
@@ -14,6 +16,7 @@ use crate::body::gltf_rig::ClipChoice;
 use crate::error::{Fault, FileError, Found, Place, rounded};
 use crate::plausible::{HEIGHTS, WIDTH_MAX};
 use crate::source;
+use crate::unread::Unread;
 use std::path::Path;
 use toile_scene::Mesh;
 
@@ -81,19 +84,20 @@ fn read(bytes: &[u8], name: &Path, folder: Option<&Path>, options: &BodyOptions)
         return Err(Found::malformed(Place::File, "a time is one in a clip: name the clip, or leave the time out"));
     }
     let ending = name.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-    let mut warnings = Vec::new();
+    let (mut warnings, mut unread) = (Vec::new(), Unread::default());
     let soup = match ending.to_ascii_lowercase().as_str() {
         "obj" | "ply" if options.clip.is_some() => {
             return Err(Found::malformed(Place::File, "files of its kind have no clips: leave the clip out"));
         }
-        "obj" => obj::read(bytes)?,
-        "ply" => ply::read(bytes)?,
+        "obj" => obj::read(bytes, &mut unread)?,
+        "ply" => ply::read(bytes, &mut unread)?,
         "gltf" | "glb" => {
             let choice = options.clip.as_deref().map_or(ClipChoice::None, ClipChoice::Named);
             gltf_body::read(bytes, folder, choice, options.time, options.metres_per_unit)?.soup
         }
         _ => return Err(Fault::UnknownFormat(ENDINGS).into()),
     };
+    warnings.extend(unread.sentences());
     let mesh = soup.clean(options.metres_per_unit, &mut warnings)?.mesh;
     check_height(&mesh, options.metres_per_unit)?;
     Ok(BodyFile { mesh, warnings })

@@ -8,7 +8,7 @@ mod toml_text;
 mod value;
 
 use crate::error::{FileError, Found, Place};
-use crate::garment::read_garment;
+use crate::garment::read_garment_file;
 use crate::scene::problem::Problem;
 use crate::scene::scene_toml::{
     CornerToml, FrictionToml, MapsToml, PinToml, PolishToml, RuleToml, SceneToml, SheetToml, WindToml,
@@ -35,7 +35,8 @@ pub struct SceneFile {
     pub scene: Scene,
     /// Number of frames that it runs.
     pub frames: u32,
-    /// What is unusual about its bodies; see [`BodyFile::warnings`](crate::BodyFile::warnings).
+    /// What is unusual about its bodies and garments, each with its file; see
+    /// [`BodyFile::warnings`](crate::BodyFile::warnings) and [`GarmentFile::warnings`](crate::GarmentFile::warnings).
     pub warnings: Vec<String>,
 }
 
@@ -62,15 +63,17 @@ fn convert(toml: SceneToml, stem: &str, folder: &Path) -> Result<SceneFile, Prob
     for (index, sheet) in toml.sheet.iter().enumerate() {
         cloths.push(Cloth::Sheet(convert_sheet(index, sheet, toml.n)?));
     }
+    let mut warnings = Vec::new();
     for garment in &toml.garment {
-        cloths.push(Cloth::Garment(read_garment(&folder.join(&garment.file))?));
+        let read = read_garment_file(&folder.join(&garment.file))?;
+        warnings.extend(read.warnings.iter().map(|warning| format!("{}: {warning}", garment.file)));
+        cloths.push(Cloth::Garment(read.garment));
     }
     if cloths.is_empty() {
         let message = "the scene has no cloth: give a [[sheet]] or a [[garment]]";
         return Err(Found::malformed(Place::File, message).into());
     }
     let mut bodies = Vec::new();
-    let mut warnings = Vec::new();
     for (index, body) in toml.body.iter().enumerate() {
         let (body, new_warnings) = scene_body::convert_body(index, body, folder)?;
         bodies.push(body);

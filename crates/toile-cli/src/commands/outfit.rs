@@ -24,13 +24,15 @@ pub fn read(outfit: &Outfit) -> Result<SceneFile> {
             files::parse_body(BODY, BODY_NAME, &BodyOptions { clip, metres_per_unit: 1.0, ..options })?
         }
     };
+    let (garments, mut warnings) = read_garments(outfit)?;
+    warnings.splice(..0, body.warnings);
     let scene = Scene {
         name: "outfit".to_owned(),
-        cloths: read_garments(outfit)?.into_iter().map(Cloth::Garment).collect(),
+        cloths: garments.into_iter().map(Cloth::Garment).collect(),
         bodies: vec![Body::Mesh(body.mesh)],
         settings: settings(outfit)?,
     };
-    Ok(SceneFile { scene, frames: 0, warnings: body.warnings })
+    Ok(SceneFile { scene, frames: 0, warnings })
 }
 
 /// Reads the body of the outfit with its motion, and what is unusual about it.
@@ -52,12 +54,18 @@ pub fn walking_woman(clip: &str) -> Result<MovingMesh> {
     Ok(files::parse_moving_body(BODY, BODY_NAME, &options)?.body)
 }
 
-/// Reads the garments of the outfit, inner ones first.
-pub fn read_garments(outfit: &Outfit) -> Result<Vec<Garment>> {
+/// Reads the garments of the outfit, inner ones first, and what is unusual about them.
+pub fn read_garments(outfit: &Outfit) -> Result<(Vec<Garment>, Vec<String>)> {
     if outfit.garment.is_empty() {
-        return Ok(vec![files::parse_garment(GARMENT, "dress")?]);
+        return Ok((vec![files::parse_garment(GARMENT, "dress")?], Vec::new()));
     }
-    Ok(outfit.garment.iter().map(|path| files::read_garment(path)).collect::<Result<_, _>>()?)
+    let (mut garments, mut warnings) = (Vec::new(), Vec::new());
+    for path in &outfit.garment {
+        let file = files::read_garment_file(path)?;
+        warnings.extend(file.warnings.iter().map(|warning| format!("{}: {warning}", path.display())));
+        garments.push(file.garment);
+    }
+    Ok((garments, warnings))
 }
 
 /// How the outfit is simulated.
