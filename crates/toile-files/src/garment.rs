@@ -5,6 +5,7 @@ mod garment_json;
 mod slit;
 
 use crate::error::{Fault, FileError, Found, Place, rounded};
+use crate::format;
 use crate::garment::garment_json::{
     CurvatureJson, EdgeJson, Number, PanelJson, PropertiesJson, SideJson, StitchPart, flag,
 };
@@ -135,6 +136,7 @@ fn parse(text: &str, stem: &str) -> Result<GarmentFile, Found> {
         let what = format!("a garment of more than {LARGEST_FILE} bytes");
         return Err(Fault::Unsupported(what).into());
     }
+    format::check_magic(text.as_bytes())?;
     let mut unread = Unread::default();
     let json = garment_json::read(text, &mut unread).map_err(|error| {
         // serde_json repeats the place at the end of its message.

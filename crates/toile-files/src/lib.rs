@@ -2,6 +2,7 @@
 
 mod body;
 mod error;
+mod format;
 mod garment;
 mod out;
 mod plausible;

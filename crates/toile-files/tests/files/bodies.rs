@@ -252,7 +252,7 @@ fn faults_are_typed() {
     let error = parse_body(b"v 0 0 0\n", "a.obj", &BodyOptions::default()).expect_err("no triangle");
     assert!(matches!(*error.fault, Fault::Empty(1)));
     assert_eq!(error.place, Place::File);
-    let error = parse_body(b"", "a.stl", &BodyOptions::default()).expect_err("no such format");
+    let error = parse_body(b"", "a.mesh", &BodyOptions::default()).expect_err("no such format");
     assert!(matches!(*error.fault, Fault::UnknownFormat(_)));
 }
 
@@ -400,4 +400,51 @@ fn ply_elements_and_properties_that_nothing_reads_are_told_once_by_name() {
     "#);
     let message = refusal(ascii_ply(&mesh, &faces.replace("vertex_indices", "corners")), "a.ply");
     assert_eq!(message, "a.ply: the element face has no list \"vertex_indices\"; it has: corners");
+}
+
+#[test]
+fn a_body_that_lies_or_has_z_up_has_its_length_for_a_height() {
+    let lying = |turn: fn(Vec3) -> Vec3, size: f32| {
+        let mut mesh = ellipsoid();
+        mesh.positions.iter_mut().for_each(|position| *position = turn(*position * size));
+        obj_text(&mesh)
+    };
+    let turns: [fn(Vec3) -> Vec3; 3] =
+        [|p| glam::vec3(p.x, -p.z, p.y), |p| glam::vec3(p.y, p.x, p.z), |p| glam::vec3(p.x, 0.45 * p.z, p.y)];
+    for turn in turns {
+        let body = read(lying(turn, 1.0), "a.obj");
+        let [low, high] = body.mesh.bounds().expect("vertices");
+        assert!(((high - low).max_element() - 1.6).abs() < 1e-5);
+        let told = refusal(lying(turn, 100.0), "a.obj");
+        assert!(
+            told.contains("is 160 m tall") && told.ends_with("give cm as its unit if it should be 1.60 m"),
+            "{told}"
+        );
+    }
+}
+
+#[test]
+fn the_floor_that_a_scan_stands_on_is_told_and_does_not_turn_it() {
+    let alone = read(obj_text(&ellipsoid()), "a.obj").mesh;
+    let with_sheet = |corners: [[f32; 3]; 4], turned: bool| {
+        let mut mesh = ellipsoid();
+        if turned {
+            mesh.triangles.iter_mut().for_each(|triangle| triangle.swap(0, 1));
+        }
+        let first = mesh.positions.len() as u32;
+        mesh.positions.extend(corners.map(Vec3::from));
+        mesh.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+        read(obj_text(&mesh), "a.obj")
+    };
+    let floor = [[-2.0, 0.0, -2.0], [2.0, 0.0, -2.0], [2.0, 0.0, 2.0], [-2.0, 0.0, 2.0]];
+    let ceiling = floor.map(|[x, _, z]| [z, 2.5, x]);
+    let wall = floor.map(|[x, _, z]| [x, z + 1.0, -1.0]);
+    for sheet in [floor, ceiling, wall] {
+        let body = with_sheet(sheet, false);
+        assert_eq!(body.mesh, alone);
+        assert_eq!(body.warnings, ["floor or backdrop left out: 1 piece of 2 triangles, the largest 4.00 m by 4.00 m"]);
+        let turned = with_sheet(sheet, true);
+        assert!((turned.mesh.signed_volume() - alone.signed_volume()).abs() < 1e-9);
+        assert_eq!(turned.warnings[1], "triangles that faced inward turned over: 216");
+    }
 }
