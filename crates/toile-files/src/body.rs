@@ -1,6 +1,7 @@
 //! Bodies from OBJ, PLY, glTF and GLB files.
 
 mod gltf_body;
+mod gltf_compressed;
 mod gltf_extensions;
 mod gltf_file;
 mod gltf_json;

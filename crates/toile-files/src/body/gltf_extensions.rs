@@ -21,17 +21,16 @@ const TEXTURE: Use = Use::Shapeless("it says how an image is kept");
 const LIGHT: Use = Use::Shapeless("it lights the scene");
 const NOTES: Use = Use::Shapeless("it has notes about the file or its parts");
 const BEHAVIOUR: Use = Use::Shapeless("it says what a program does with the file while it runs");
-const UNCOMPRESSED: &str = "export it without compression";
 
 /// The extensions that Khronos ratified or drafts, those of several vendors, and those that exporters of bodies write.
 const EXTENSIONS: [(&str, Use); 78] = [
     ("KHR_mesh_quantization", Use::Read),
     ("KHR_animation_pointer", Use::Read),
     ("KHR_node_visibility", Use::Read),
-    ("KHR_draco_mesh_compression", Use::Refused(UNCOMPRESSED)),
-    ("KHR_meshopt_compression", Use::Refused(UNCOMPRESSED)),
-    ("EXT_meshopt_compression", Use::Refused(UNCOMPRESSED)),
-    ("MESHOPT_compression", Use::Refused(UNCOMPRESSED)),
+    ("KHR_draco_mesh_compression", Use::Read),
+    ("KHR_meshopt_compression", Use::Read),
+    ("EXT_meshopt_compression", Use::Read),
+    ("MESHOPT_compression", Use::Read),
     ("EXT_mesh_gpu_instancing", Use::Refused("make the instances real before the export")),
     ("KHR_accessor_float64", Use::Refused("export numbers as 32-bit floats")),
     ("KHR_gaussian_splatting", Use::Refused("make a mesh of the splats")),

@@ -1,13 +1,14 @@
 //! A glTF or GLB file with its buffers, and the numbers of its accessors.
 
-use crate::body::gltf_json::GltfJson;
+use crate::body::gltf_json::{GltfJson, list};
+use crate::body::{gltf_compressed, gltf_extensions};
 use crate::error::{Fault, Found, Place};
 use crate::unread::Unread;
 use base64::Engine;
 use gltf::accessor::sparse::IndexType;
 use gltf::accessor::{DataType, Dimensions};
-use gltf::buffer::Source;
 use gltf::json::validation::{Checked, Error, Validate};
+use serde_json::Value;
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -29,30 +30,18 @@ impl GltfFile {
             true => chunks(bytes, unread)?,
             false => (bytes, None),
         };
-        let GltfJson { root, hidden } = GltfJson::read(text, unread)?;
+        let mut json = GltfJson::read(text)?;
+        gltf_extensions::check(&json.root, unread)?;
+        let mut buffers = list(&json.root, "buffers")
+            .map(|(number, buffer)| load(number, buffer, &mut blob, folder))
+            .collect::<Result<Vec<_>, Found>>()?;
+        gltf_compressed::decode(&mut json.root, &mut buffers)?;
+        let hidden = json.hidden(unread);
+        let root = json.typed(unread)?;
         check_positions(&root)?;
         check_channels(&root)?;
         check_root(&root)?;
-        let document = gltf::Document::from_json_without_validation(root);
-        let buffers = document
-            .buffers()
-            .map(|buffer| {
-                let what = format!("buffer {}", buffer.index());
-                let data = match buffer.source() {
-                    Source::Bin => blob
-                        .take()
-                        .map(<[u8]>::to_vec)
-                        .ok_or_else(|| Found::malformed(Place::File, format!("{what} is not in the file")))?,
-                    Source::Uri(uri) => read_uri(uri, &what, folder)?,
-                };
-                if data.len() < buffer.length() {
-                    let (needed, available) = (buffer.length() as u128, data.len());
-                    return Err(Fault::Truncated { what, needed, available }.into());
-                }
-                Ok(data)
-            })
-            .collect::<Result<_, Found>>()?;
-        Ok(Self { document, hidden, buffers })
+        Ok(Self { document: gltf::Document::from_json_without_validation(root), hidden, buffers })
     }
 
     /// The numbers of an accessor, N per element. Normalised integers become 0..1 or −1..1.
@@ -296,6 +285,26 @@ fn check_channels(root: &gltf::json::Root) -> Result<(), Found> {
         }
     }
     Ok(())
+}
+
+/// The bytes of a buffer: the binary chunk of a GLB for the first one that names no other place.
+fn load(number: usize, buffer: &Value, blob: &mut Option<&[u8]>, folder: Option<&Path>) -> Result<Vec<u8>, Found> {
+    if gltf_compressed::is_fallback(buffer) {
+        return Ok(Vec::new());
+    }
+    let what = format!("buffer {number}");
+    let data = match buffer.get("uri").and_then(Value::as_str) {
+        Some(uri) => read_uri(uri, &what, folder)?,
+        None => {
+            let absent = || Found::malformed(Place::File, format!("{what} is not in the file"));
+            blob.take().ok_or_else(absent)?.to_vec()
+        }
+    };
+    let length = buffer.get("byteLength").and_then(Value::as_u64).unwrap_or_default();
+    if (data.len() as u64) < length {
+        return Err(Fault::Truncated { what, needed: u128::from(length), available: data.len() }.into());
+    }
+    Ok(data)
 }
 
 fn read_uri(uri: &str, what: &str, folder: Option<&Path>) -> Result<Vec<u8>, Found> {

@@ -6,6 +6,7 @@ use crate::source;
 use crate::unread::Unread;
 use gltf::json;
 use serde_json::{Map, Value, json as value};
+use std::borrow::Cow;
 
 /// So many values may a JSON have, and more by the bytes that it has: each takes some three hundred bytes once it is typed.
 const MOST_VALUES: usize = 1 << 18;
@@ -88,41 +89,54 @@ const SHAPE: [&str; 4] = ["POSITION", "NORMAL", "JOINTS_", "WEIGHTS_"];
 const SHAPELESS: [&str; 3] = ["TANGENT", "TEXCOORD_", "COLOR_"];
 
 /// The JSON of a glTF file.
-pub(crate) struct GltfJson {
-    pub root: json::Root,
-    /// Whether the file hides a node and all below it.
-    pub hidden: Vec<bool>,
+pub(crate) struct GltfJson<'a> {
+    /// Without what the shape does not need.
+    pub root: Value,
+    text: Cow<'a, [u8]>,
 }
 
-impl GltfJson {
-    /// Reads the text, refuses what cannot be read, and notes what is not.
-    pub fn read(text: &[u8], unread: &mut Unread) -> Result<Self, Found> {
+impl<'a> GltfJson<'a> {
+    /// Reads the text, and refuses what cannot be read.
+    pub fn read(text: &'a [u8]) -> Result<Self, Found> {
         // The format has no byte order mark and is padded by spaces, but editors and exporters write marks and zeros.
-        let text = source::utf8(text);
-        let text = &text[..text.iter().rposition(|byte| *byte != 0).map_or(0, |last| last + 1)];
-        check_size(text)?;
-        let invalid = |error: serde_json::Error| {
-            let message = error.to_string();
-            let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(start, _)| start);
-            let place = if error.line() == 0 { Place::File } else { Place::Column(error.line(), error.column()) };
-            Found::malformed(place, format!("the glTF JSON is not valid: {message}"))
+        let length = |text: &[u8]| text.iter().rposition(|byte| *byte != 0).map_or(0, |last| last + 1);
+        let text = match source::utf8(text) {
+            Cow::Borrowed(text) => Cow::Borrowed(&text[..length(text)]),
+            Cow::Owned(mut text) => {
+                text.truncate(length(&text));
+                Cow::Owned(text)
+            }
         };
-        let mut root: Value = serde_json::from_slice(text).map_err(invalid)?;
+        check_size(&text)?;
+        let mut root: Value = serde_json::from_slice(&text).map_err(invalid)?;
         check_version(&root)?;
-        gltf_extensions::check(&root, unread)?;
-        check_compression(&root)?;
-        let hidden = hidden(&root, unread);
-        move_pointers(&mut root, unread);
         if let Some(root) = root.as_object_mut() {
             NEEDLESS.iter().for_each(|(key, _)| drop(root.remove(*key)));
         }
-        strip(&mut root, &FILE, &mut Vec::new(), unread);
-        match json::deserialize::from_value(root) {
-            Ok(root) => Ok(Self { root, hidden }),
-            // The text has places where the values have none, and most often the same fault.
-            Err(error) => Err(invalid(json::Root::from_slice(text).err().unwrap_or(error))),
-        }
+        Ok(Self { root, text })
     }
+
+    /// The nodes that the file hides, each with all below it.
+    pub fn hidden(&self, unread: &mut Unread) -> Vec<bool> {
+        hidden(&self.root, unread)
+    }
+
+    /// The types of the crate; notes what is not read.
+    pub fn typed(mut self, unread: &mut Unread) -> Result<json::Root, Found> {
+        check_instances(&self.root)?;
+        move_pointers(&mut self.root, unread);
+        strip(&mut self.root, &FILE, &mut Vec::new(), unread);
+        // The text has places where the values have none, and most often the same fault.
+        json::deserialize::from_value(self.root)
+            .map_err(|error| invalid(json::Root::from_slice(&self.text).err().unwrap_or(error)))
+    }
+}
+
+fn invalid(error: serde_json::Error) -> Found {
+    let message = error.to_string();
+    let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(start, _)| start);
+    let place = if error.line() == 0 { Place::File } else { Place::Column(error.line(), error.column()) };
+    Found::malformed(place, format!("the glTF JSON is not valid: {message}"))
 }
 
 /// Refuses more values than a body needs: a small file could ask for any memory.
@@ -157,49 +171,27 @@ fn check_version(root: &Value) -> Result<(), Found> {
     }
 }
 
-fn list<'a>(value: &'a Value, key: &str) -> impl Iterator<Item = (usize, &'a Value)> {
+/// The items of a list with their numbers.
+pub(crate) fn list<'a>(value: &'a Value, key: &str) -> impl Iterator<Item = (usize, &'a Value)> {
     value.get(key).and_then(Value::as_array).into_iter().flatten().enumerate()
 }
 
-/// Refuses numbers that lie in an extension alone.
-fn check_compression(root: &Value) -> Result<(), Found> {
-    const DRACO: &str = "KHR_draco_mesh_compression";
-    const MESHOPT: [&str; 3] = ["KHR_meshopt_compression", "EXT_meshopt_compression", "MESHOPT_compression"];
-    let extension = |value: &Value, name: &str| value.pointer(&format!("/extensions/{name}")).cloned();
-    let item = |key: &str, index: &Value| Some(root.get(key)?.get(usize::try_from(index.as_u64()?).ok()?)?.clone());
-    for (number, mesh) in list(root, "meshes") {
-        for (part, primitive) in list(mesh, "primitives") {
-            if extension(primitive, DRACO).is_none() {
-                continue;
-            }
-            let attributes = primitive.get("attributes").and_then(Value::as_object).into_iter().flat_map(Map::values);
-            let is_empty = |index: &Value| {
-                item("accessors", index)
-                    .is_some_and(|accessor| accessor.get("bufferView").is_none() && accessor.get("sparse").is_none())
-            };
-            if attributes.chain(primitive.get("indices")).any(is_empty) {
-                return Err(gltf_extensions::refuse(&format!("meshes[{number}].primitives[{part}]"), DRACO));
-            }
-        }
+/// The item of a list that an index names.
+pub(crate) fn item<'a>(root: &'a Value, key: &str, index: &Value) -> Option<&'a Value> {
+    root.get(key)?.get(usize::try_from(index.as_u64()?).ok()?)
+}
+
+/// Refuses meshes that an extension repeats.
+fn check_instances(root: &Value) -> Result<(), Found> {
+    const INSTANCING: &str = "EXT_mesh_gpu_instancing";
+    let repeats = |node: &Value| {
+        node.get("mesh").is_some()
+            && node.get("extensions").is_some_and(|extensions| extensions.get(INSTANCING).is_some())
+    };
+    match list(root, "nodes").find(|(_, node)| repeats(node)) {
+        Some((number, _)) => Err(gltf_extensions::refuse(&format!("nodes[{number}]"), INSTANCING)),
+        None => Ok(()),
     }
-    for (number, view) in list(root, "bufferViews") {
-        for name in MESHOPT.into_iter().filter(|name| extension(view, name).is_some()) {
-            let buffer = view.get("buffer").and_then(|index| item("buffers", index));
-            let is_fallback = |buffer: &Value| {
-                extension(buffer, name).and_then(|fallback| fallback.get("fallback")?.as_bool()) == Some(true)
-            };
-            if buffer.is_some_and(|buffer| is_fallback(&buffer) && buffer.get("uri").is_none()) {
-                return Err(gltf_extensions::refuse(&format!("bufferViews[{number}]"), name));
-            }
-        }
-    }
-    for (number, node) in list(root, "nodes") {
-        const INSTANCING: &str = "EXT_mesh_gpu_instancing";
-        if node.get("mesh").is_some() && extension(node, INSTANCING).is_some() {
-            return Err(gltf_extensions::refuse(&format!("nodes[{number}]"), INSTANCING));
-        }
-    }
-    Ok(())
 }
 
 /// The nodes that the file hides.

@@ -52,6 +52,9 @@ const NEEDLESS: [(&str, &[&str], &str); 7] = [
     ("material", &[], "colours"),
 ];
 
+/// So many properties that are not read are told by name.
+const MOST_NAMES: usize = 8;
+
 /// Reads a PLY file. Positions stay in the file's unit. What is not read is noted.
 pub(crate) fn read(bytes: &[u8], unread: &mut Unread) -> Result<Soup, Found> {
     let bytes = &*source::utf8(bytes);
@@ -89,13 +92,19 @@ fn note(element: &Element, unread: &mut Unread) {
             return;
         }
     };
-    for property in &element.properties {
-        let property = property.name.as_str();
+    let is_unread = |property: &&str| {
         let is_needless =
-            |(of, properties, _): &(&str, &[&str], &str)| (*of == "*" || *of == name) && properties.contains(&property);
-        if !read.contains(&property) && !NEEDLESS.iter().any(is_needless) {
-            unread.note(&format!("the property \"{}\" of {name}", shortened(property)), || Place::File);
-        }
+            |(of, properties, _): &(&str, &[&str], &str)| (*of == "*" || *of == name) && properties.contains(property);
+        !read.contains(property) && !NEEDLESS.iter().any(is_needless)
+    };
+    let names = element.properties.iter().map(|property| property.name.as_str());
+    let names: Vec<String> = names.filter(is_unread).map(|name| format!("\"{}\"", shortened(name))).collect();
+    // Vertex groups, which have no end, are written as properties.
+    let (told, others) = names.split_at(names.len().min(MOST_NAMES));
+    if !told.is_empty() {
+        let others = if others.is_empty() { String::new() } else { format!(" and {} more", others.len()) };
+        let properties = if names.len() == 1 { "property" } else { "properties" };
+        unread.note(&format!("the {properties} {}{others} of {name}", told.join(", ")), || Place::File);
     }
 }
 

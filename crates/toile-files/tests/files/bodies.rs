@@ -393,11 +393,25 @@ fn ply_elements_and_properties_that_nothing_reads_are_told_once_by_name() {
     let unknown = known.replace("float quality", "float opacity").replace("float s\n", "float weight\n");
     let unknown = unknown.replace("element edge 1", "element cells 1");
     insta::assert_snapshot!(read(rows(&unknown) + "0 1\nmore\n", "a.ply").warnings.join("\n"), @r#"
-    not read: the property "opacity" of vertex
-    not read: the property "weight" of vertex
+    not read: the properties "opacity", "weight" of vertex
     not read: the element "cells"
     not read: what follows the last element (line 343)
     "#);
+    let groups: String = (0..12).map(|group| format!("property float group{group}\n")).collect();
+    let header = ascii_ply(&mesh, &faces).replace("property float z\n", &format!("property float z\n{groups}"));
+    let (header, numbers) = header.split_once("end_header\n").expect("an end");
+    let numbers = numbers.lines().enumerate().map(|(row, line)| match row < mesh.positions.len() {
+        true => format!("{line} 0 0 0 0 0 0 0 0 0 0 0 1\n"),
+        false => format!("{line}\n"),
+    });
+    let weights = format!("{header}end_header\n{}", numbers.collect::<String>());
+    let told = read(weights, "a.ply").warnings;
+    assert_eq!(
+        told,
+        [
+            "not read: the properties \"group0\", \"group1\", \"group2\", \"group3\", \"group4\", \"group5\", \"group6\", \"group7\" and 4 more of vertex"
+        ]
+    );
     let message = refusal(ascii_ply(&mesh, &faces.replace("vertex_indices", "corners")), "a.ply");
     assert_eq!(message, "a.ply: the element face has no list \"vertex_indices\"; it has: corners");
 }

@@ -312,22 +312,22 @@ fn extensions_that_touch_the_shape_are_refused_by_name_with_what_to_do() {
     };
     let required = |name: &'static str| move |root: &mut Value| root["extensionsRequired"] = json!([name]);
     let messages = [
-        refusal(&required("KHR_draco_mesh_compression")),
-        refusal(&required("EXT_meshopt_compression")),
+        refusal(&required("KHR_gaussian_splatting")),
         refusal(&required("KHR_accessor_float64")),
         refusal(&required("ACME_shape")),
-        // A file that does not say that it needs the extension, and has its numbers there alone.
+        // Numbers that no codec wrote.
         refusal(&|root| {
             root["meshes"][0]["primitives"][0]["extensions"] =
-                json!({ "KHR_draco_mesh_compression": { "bufferView": 0 } });
+                json!({ "KHR_draco_mesh_compression": { "bufferView": 0, "attributes": { "POSITION": 0 } } });
             root["accessors"][0].as_object_mut().expect("an object").remove("bufferView");
         }),
         refusal(&|root| {
-            root["bufferViews"][0]["extensions"] = json!({ "EXT_meshopt_compression": { "buffer": 0 } });
-            root["bufferViews"][0]["buffer"] = 1.into();
-            let fallback =
-                json!({ "byteLength": 1320, "extensions": { "EXT_meshopt_compression": { "fallback": true } } });
-            root["buffers"].as_array_mut().expect("buffers").push(fallback);
+            root["bufferViews"][0]["extensions"] = json!({ "EXT_meshopt_compression": { "buffer": 0, "byteLength": 1320,
+                "byteStride": 12, "count": 110, "mode": "ATTRIBUTES" } });
+        }),
+        refusal(&|root| {
+            root["bufferViews"][0]["extensions"] =
+                json!({ "EXT_meshopt_compression": { "buffer": 7, "byteLength": 1320 } });
         }),
         refusal(&|root| root["nodes"][0]["extensions"] = json!({ "EXT_mesh_gpu_instancing": { "attributes": {} } })),
         refusal(&|root| root["asset"]["version"] = "1.0".into()),
@@ -339,12 +339,12 @@ fn extensions_that_touch_the_shape_are_refused_by_name_with_what_to_do() {
         }),
     ];
     insta::assert_snapshot!(messages.join("\n"), @r#"
-    a.gltf: the file needs the extension KHR_draco_mesh_compression, which is not read: export it without compression
-    a.gltf: the file needs the extension EXT_meshopt_compression, which is not read: export it without compression
+    a.gltf: the file needs the extension KHR_gaussian_splatting, which is not read: make a mesh of the splats
     a.gltf: the file needs the extension KHR_accessor_float64, which is not read: export numbers as 32-bit floats
     a.gltf: the file needs the extension ACME_shape, which is not read: export it without it
-    a.gltf: meshes[0].primitives[0] needs the extension KHR_draco_mesh_compression, which is not read: export it without compression
-    a.gltf: bufferViews[0] needs the extension EXT_meshopt_compression, which is not read: export it without compression
+    a.gltf, key "meshes[0].primitives[0]": what KHR_draco_mesh_compression compressed cannot be decoded (General error: Invalid magic): export it without compression
+    a.gltf, key "bufferViews[0]": what EXT_meshopt_compression compressed cannot be decoded (invalid encoded stream): export it without compression
+    a.gltf, key "bufferViews[0]": what EXT_meshopt_compression compressed cannot be decoded (its bytes are not in the file): export it without compression
     a.gltf: nodes[0] needs the extension EXT_mesh_gpu_instancing, which is not read: make the instances real before the export
     a.gltf, key "asset.version": it is glTF 1.0: export it as glTF 2.0
     a.gltf: buffer 1 lies on the web at "https://a.b/c.bin": download it beside the file, or export a GLB

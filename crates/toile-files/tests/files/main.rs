@@ -2,6 +2,7 @@
 
 mod bodies;
 mod broken;
+mod compressed;
 mod garbage;
 mod garments;
 mod gltf_bodies;

@@ -160,7 +160,7 @@ fn files_that_others_wrote_are_read_or_refused_by_their_cause() {
     neg_scale_glb/b.glb: 5128 triangles, 46.7 l ["boundary edges (the body has holes): 140", "triangles that faced inward turned over: 2"]
     quantized_glb/b.glb: 4009 triangles, 46.5 l ["duplicated triangles removed: 3", "boundary edges (the body has holes): 6", "non-manifold edges (shared by more than two triangles): 3"]
     unlit_glb/b.glb: 4009 triangles, 46.5 l ["duplicated triangles removed: 3", "boundary edges (the body has holes): 6", "non-manifold edges (shared by more than two triangles): 3"]
-    draco_glb/b.glb: the file needs the extension KHR_draco_mesh_compression, which is not read: export it without compression
+    draco_glb/b.glb, key "meshes[0].primitives[0]": what KHR_draco_mesh_compression compressed cannot be decoded (General error: Invalid magic): export it without compression
     obj_bom_spare/b.obj: 4009 triangles, 46.5 l ["duplicated triangles removed: 3", "isolated vertices removed: 1", "boundary edges (the body has holes): 6", "non-manifold edges (shared by more than two triangles): 3"]
     obj_backslash/b.obj: 4009 triangles, 46.5 l ["duplicated triangles removed: 3", "boundary edges (the body has holes): 6", "non-manifold edges (shared by more than two triangles): 3"]
     zup_ply/scan.ply: 4009 triangles, 46.5 l ["duplicated triangles removed: 3", "boundary edges (the body has holes): 6", "non-manifold edges (shared by more than two triangles): 3"]
