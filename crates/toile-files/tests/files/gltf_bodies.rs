@@ -222,7 +222,7 @@ fn every_cut_of_a_glb_is_refused() {
 }
 
 /// A GLB of a JSON, a buffer, and further chunks.
-fn glb(root: &Value, bytes: &[u8], pad: u8, further: &[(&[u8; 4], &[u8])]) -> Vec<u8> {
+pub fn glb(root: &Value, bytes: &[u8], pad: u8, further: &[(&[u8; 4], &[u8])]) -> Vec<u8> {
     let mut text = root.to_string().into_bytes();
     text.resize(text.len().next_multiple_of(4), pad);
     let mut bin = bytes.to_vec();
