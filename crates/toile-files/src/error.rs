@@ -105,7 +105,7 @@ pub enum Fault {
         count: usize,
     },
     /// A body without triangles.
-    #[error("the body is empty: it has {0} vertices and no triangle")]
+    #[error("the body is empty: it has {0} vertices and no triangle; export the mesh with its faces")]
     Empty(usize),
     /// A body that is no human size in the declared unit.
     #[error(

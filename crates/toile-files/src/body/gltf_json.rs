@@ -8,11 +8,11 @@ use gltf::json;
 use serde_json::{Map, Value, json as value};
 use std::borrow::Cow;
 
-/// So many values may a JSON have, and more by the bytes that it has: each takes some three hundred bytes once it is typed.
-const MOST_VALUES: usize = 1 << 18;
+/// So many objects may a JSON have, and one more for so many bytes: each takes some hundreds of bytes once it is typed.
+const MOST_OBJECTS: [usize; 2] = [1 << 17, 32];
 
-/// Bytes of JSON that allow for one more value.
-const BYTES_PER_VALUE: usize = 32;
+/// So many values in all.
+const MOST_VALUES: [usize; 2] = [1 << 20, 8];
 
 /// Keys of the format that say nothing about the shape, each with its reason.
 const NEEDLESS: [(&str, &str); 6] = [
@@ -139,23 +139,27 @@ fn invalid(error: serde_json::Error) -> Found {
     Found::malformed(place, format!("the glTF JSON is not valid: {message}"))
 }
 
-/// Refuses more values than a body needs: a small file could ask for any memory.
+/// Refuses more than a body needs: a small file could ask for any memory.
 fn check_size(text: &[u8]) -> Result<(), Found> {
-    let (mut count, mut in_string, mut escaped) = (0, false, false);
+    let (mut object_count, mut value_count, mut in_string, mut escaped) = (0, 0, false, false);
     for byte in text {
         match byte {
             _ if escaped => escaped = false,
             b'\\' if in_string => escaped = true,
             b'"' => in_string = !in_string,
-            b',' | b'[' | b'{' if !in_string => count += 1,
+            b',' | b'[' if !in_string => value_count += 1,
+            b'{' if !in_string => object_count += 1,
             _ => {}
         }
     }
-    let most = MOST_VALUES + text.len() / BYTES_PER_VALUE;
-    if count <= most {
-        return Ok(());
+    for (what, count, [most, bytes]) in [("objects", object_count, MOST_OBJECTS), ("values", value_count, MOST_VALUES)]
+    {
+        let most = most + text.len() / bytes;
+        if count > most {
+            return Err(Fault::Unsupported(format!("a glTF JSON of more than {most} {what}")).into());
+        }
     }
-    Err(Fault::Unsupported(format!("a glTF JSON of more than {most} values")).into())
+    Ok(())
 }
 
 fn check_version(root: &Value) -> Result<(), Found> {

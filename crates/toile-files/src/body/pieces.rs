@@ -11,10 +11,7 @@ const SHEET_RIM: f64 = 8.0;
 /// Area of a sheet over the square of the body's length [1], below which it stays: hair, a scarf.
 const SHEET_AREA: f64 = 0.07;
 
-/// Share of a sheet's area that faces one way, from which on it is flat: a floor, a wall.
-const FLAT: f64 = 0.9;
-
-/// Part of the body's length by which a curved sheet must stick out of the box around the body to be no clothing.
+/// Part of the body's length by which a sheet must stick out of the box around the body to be no clothing.
 const BEYOND: f64 = 0.1;
 
 /// Thickness over length [1] below which a closed piece is a slab, as a turntable is.
@@ -152,8 +149,6 @@ struct Measure {
     low: DVec3,
     high: DVec3,
     area: f64,
-    /// Sum of the triangles' normals times their areas.
-    facing: DVec3,
     /// Volume [m³] between the piece and its own middle; negative where it faces inward.
     volume: f64,
     /// Length of its longest rim [m].
@@ -161,15 +156,8 @@ struct Measure {
 }
 
 impl Measure {
-    const NOTHING: Self = Self {
-        triangle_count: 0,
-        low: DVec3::INFINITY,
-        high: DVec3::NEG_INFINITY,
-        area: 0.0,
-        facing: DVec3::ZERO,
-        volume: 0.0,
-        rim: 0.0,
-    };
+    const NOTHING: Self =
+        Self { triangle_count: 0, low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, area: 0.0, volume: 0.0, rim: 0.0 };
 
     fn is_sheet(&self) -> bool {
         self.rim * self.rim > SHEET_RIM * self.area
@@ -200,8 +188,7 @@ fn corners(positions: &[Vec3], triangle: [u32; 3]) -> [DVec3; 3] {
 fn measure(positions: &[Vec3], triangles: &[[u32; 3]], edges: &Edges, pieces: &Pieces) -> Vec<Measure> {
     let mut measures = vec![Measure::NOTHING; pieces.count];
     let mut middles = vec![DVec3::ZERO; pieces.count];
-    let sided = || triangles.iter().zip(&pieces.of_triangle).zip(&pieces.is_against);
-    for ((triangle, piece), is_against) in sided() {
+    for (triangle, piece) in triangles.iter().zip(&pieces.of_triangle) {
         let [a, b, c] = corners(positions, *triangle);
         let normal = 0.5 * (b - a).cross(c - a);
         let measure = &mut measures[*piece as usize];
@@ -209,12 +196,12 @@ fn measure(positions: &[Vec3], triangles: &[[u32; 3]], edges: &Edges, pieces: &P
         measure.low = measure.low.min(a.min(b).min(c));
         measure.high = measure.high.max(a.max(b).max(c));
         measure.area += normal.length();
-        measure.facing += if *is_against { -normal } else { normal };
         middles[*piece as usize] += normal.length() * (a + b + c) / 3.0;
     }
     middles.iter_mut().zip(&measures).for_each(|(middle, measure)| *middle /= measure.area.max(f64::MIN_POSITIVE));
     let mut rims: Vec<(u32, [u32; 2])> = Vec::new();
-    for (((triangle, piece), is_against), across) in sided().zip(&edges.across) {
+    let sided = triangles.iter().zip(&pieces.of_triangle).zip(&pieces.is_against);
+    for (((triangle, piece), is_against), across) in sided.zip(&edges.across) {
         let [a, b, c] = corners(positions, *triangle).map(|corner| corner - middles[*piece as usize]);
         let volume = a.dot(b.cross(c)) / 6.0;
         measures[*piece as usize].volume += if *is_against { -volume } else { volume };
@@ -277,9 +264,8 @@ fn kinds(positions: &[Vec3], triangles: &[[u32; 3]], pieces: &Pieces, measures: 
     let Some(body) = body.filter(|body| body.area > LEAST_AREA * body.length().powi(2)) else { return kinds };
     let length = body.length();
     for (kind, measure) in kinds.iter_mut().zip(measures) {
-        let is_flat = measure.facing.length() > FLAT * measure.area;
         let sticks_out = (body.low - measure.low).max(measure.high - body.high).max_element() > BEYOND * length;
-        let is_sheet = measure.is_sheet() && measure.area > SHEET_AREA * length * length && (is_flat || sticks_out);
+        let is_sheet = measure.is_sheet() && measure.area > SHEET_AREA * length * length && sticks_out;
         let stands_beside =
             (body.low - measure.high).max(measure.low - body.high).max_element() > -0.5 * BEYOND * length;
         let is_pedestal = is_slab(measure) && measure.extents()[1] > SLAB_WIDTH * length && stands_beside;

@@ -168,6 +168,17 @@ mod tests {
         assert!(crosses(&panel));
         open(&mut panel.edges);
         assert!(!crosses(&panel));
+        // The control points go along with the ends: both sides are the curve that was drawn, moved aside.
+        let mut panel = self::panel(&KEYHOLE);
+        let [a, b] = [dvec2(0.45, 0.1), dvec2(0.55, 0.2)];
+        panel.edges[1].curve = Curve::Cubic { controls: [a, b] };
+        panel.edges[6].curve = Curve::Cubic { controls: [b, a] };
+        open(&mut panel.edges);
+        let moved = dvec2(HALF_WIDTH, 0.0);
+        for (edge, expected) in [(1, [a - moved, b - moved]), (6, [b + moved, a + moved])] {
+            let Curve::Cubic { controls } = panel.edges[edge].curve else { panic!("a cubic") };
+            assert!(controls.iter().zip(expected).all(|(a, b)| a.distance(b) < 1e-12), "{controls:?}");
+        }
     }
 
     #[test]

@@ -25,7 +25,7 @@ fn every_broken_file_has_its_sentence() {
     names.sort();
     let messages: Vec<String> = names.iter().map(|name| message(name)).collect();
     insta::assert_snapshot!(messages.join("\n"), @r#"
-    empty_mesh.obj: the body is empty: it has 74 vertices and no triangle
+    empty_mesh.obj: the body is empty: it has 74 vertices and no triangle; export the mesh with its faces
     missing_edge.json, stitch 0: panel "back" has no edge 4: its edges are 0 to 3
     missing_panel.json, stitch 1: there is no panel "bakc"; there is: front, back
     nan_coordinate.json, panel "back": vertex 2 at (30, NaN) is not a finite number

@@ -486,3 +486,20 @@ fn what_pointers_move_is_moved() {
     not read: a channel that names no node (key "animations[0].channels[4]")
     "#);
 }
+
+#[test]
+fn a_json_of_more_than_a_body_has_is_refused_at_once() {
+    let (mut root, bytes) = still();
+    let read = |root: &Value| parse_body(&embedded(root.clone(), &bytes), "a.gltf", &BodyOptions::default());
+    root["nodes"].as_array_mut().expect("nodes").extend(vec![json!({}); 100_000]);
+    read(&root).expect("a readable body");
+    root["nodes"].as_array_mut().expect("nodes").extend(vec![json!({}); 100_000]);
+    let refused = |root: &Value, what: &str| {
+        let error = read(root).expect_err("too much").to_string();
+        let known = error.starts_with("a.gltf: a glTF JSON of more than ");
+        assert!(known && error.ends_with(&format!(" {what} cannot be read")), "{error}");
+    };
+    refused(&root, "objects");
+    root["nodes"] = json!([{ "mesh": 0, "weights": vec![0; 1_500_000] }]);
+    refused(&root, "values");
+}
