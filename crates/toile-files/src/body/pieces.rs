@@ -477,8 +477,8 @@ mod tests {
 
     #[test]
     fn what_is_worn_or_is_a_thing_of_its_own_stays() {
-        let kept: [&dyn for<'a> Fn(&'a mut Pile) -> &'a mut Pile; 5] = [
-            // A skirt, open above and below; a cape; a hat; a head apart from its trunk; two soles.
+        let kept: [&dyn for<'a> Fn(&'a mut Pile) -> &'a mut Pile; 6] = [
+            // A skirt, open above and below; a cape; a hat; a tray; a head apart from its trunk; two soles.
             &|pile| {
                 pile.add([6, 16], |row, column| {
                     let (sin, cos) = (TAU * column).sin_cos();
@@ -492,6 +492,7 @@ mod tests {
                 })
             },
             &|pile| pile.ball(vec3(0.0, 1.75, 0.0), vec3(0.25, 0.015, 0.25)),
+            &|pile| pile.ball(vec3(0.0, 0.9, 0.0), vec3(0.55, 0.02, 0.55)),
             &|pile| pile.ball(vec3(0.0, 1.95, 0.0), vec3(0.1, 0.13, 0.12)),
             &|pile| {
                 pile.ball(vec3(0.1, 0.0, 0.0), vec3(0.05, 0.008, 0.14))
