@@ -152,12 +152,15 @@ impl Surface {
                 self.skin.influences.push(Influence { joint: hanging.joints.start as u32, weight: 1.0 });
                 self.matrices[hanging.joints.start]
             };
-            mirrored.push(matrix.determinant() < 0.0);
+            let is_mirrored = matrix.determinant() < 0.0;
+            mirrored.push(is_mirrored);
             self.skin.influence_offsets.push(self.skin.influences.len() as u32);
             self.skin.positions.push(Vec3::from(*position));
             self.skin.normals.push(normal);
             self.soup.push_vertex(matrix.transform_point3(posed[0]), || Place::Accessor(accessor.index()))?;
-            self.soup.normals[first + vertex] = turned_normal(matrix, posed[1]);
+            // The cofactors turn a normal as the winding goes, which is that of the file no more.
+            let side = if is_mirrored { -1.0 } else { 1.0 };
+            self.soup.normals[first + vertex] = turned_normal(matrix, posed[1]) * side;
         }
         add_triangles(file, primitive, &mirrored, &mut self.soup)
     }

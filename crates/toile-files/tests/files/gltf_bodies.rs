@@ -269,6 +269,40 @@ fn what_a_transform_mirrors_is_wound_the_other_way() {
 }
 
 #[test]
+fn normals_of_what_is_mirrored_stay_outside_at_rest_and_in_motion() {
+    let (mut root, mut bytes) = animated("LINEAR");
+    let mesh = ellipsoid();
+    let tilted = mesh.normals.iter().map(|normal| (*normal + glam::vec3(0.05, 0.1, 0.0)).normalize());
+    let tilted: Vec<glam::Vec3> = tilted.collect();
+    let offset = bytes.len();
+    bytes.extend(tilted.iter().flat_map(|normal| normal.to_array()).flat_map(f32::to_le_bytes));
+    let views = root["bufferViews"].as_array_mut().expect("views");
+    views.push(json!({ "buffer": 0, "byteOffset": offset, "byteLength": bytes.len() - offset }));
+    root["buffers"][0]["byteLength"] = bytes.len().into();
+    let accessors = root["accessors"].as_array_mut().expect("accessors");
+    accessors.push(json!({ "bufferView": 5, "componentType": 5126, "count": tilted.len(), "type": "VEC3" }));
+    root["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 5.into();
+    for scale in [[1.0, 1.0, 1.0], [-1.0, 1.0, 1.0], [1.0, 1.0, -1.0], [-1.0, -1.0, -1.0]] {
+        root["nodes"][0]["scale"] = json!(scale);
+        let mirror = glam::Vec3::from(scale);
+        let text = embedded(root.clone(), &bytes);
+        let body = parse_body(&text, "a.gltf", &BodyOptions::default()).expect("a readable body");
+        assert_eq!(body.warnings, [] as [&str; 0], "{scale:?}");
+        for (normal, tilted) in body.mesh.normals.iter().zip(&tilted) {
+            assert!(normal.distance(*tilted * mirror) < 1e-6, "{scale:?} {normal} {tilted}");
+        }
+        let moving = toile_files::parse_moving_body(&text, "a.gltf", &BodyOptions::default()).expect("a clip").body;
+        for time in [0.0, 2.0] {
+            let options = BodyOptions { clip: Some("move".into()), time, ..BodyOptions::default() };
+            let rest = parse_body(&text, "a.gltf", &options).expect("a readable body").mesh;
+            for (a, b) in moving.at(time).normals.iter().zip(&rest.normals) {
+                assert!(a.distance(*b) < 1e-5, "{scale:?} {time} {a} {b}");
+            }
+        }
+    }
+}
+
+#[test]
 fn half_a_body_may_be_the_mirror_of_the_other_half() {
     let (mut root, bytes) = still();
     // Two bodies side by side, one of them mirrored in its own joint.
