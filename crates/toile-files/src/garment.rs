@@ -142,6 +142,10 @@ fn parse(text: &str, stem: &str) -> Result<GarmentFile, Found> {
         // serde_json repeats the place at the end of its message.
         let message = error.to_string();
         let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(start, _)| start);
+        if !text.trim_start().starts_with(['{', '[']) {
+            let message = "it is not JSON: a garment is GarmentCode's JSON, a file like NAME_specification.json";
+            return Found::malformed(Place::File, message);
+        }
         let place = Place::Column(error.line(), error.column());
         if message == "missing field `pattern`" {
             let message =
