@@ -33,3 +33,10 @@ fn sentence(finding: &Finding) -> String {
         _ => finding.to_string(),
     }
 }
+
+/// Tells what is unusual about the files.
+pub fn tell_of_files(warnings: &[String]) {
+    for warning in warnings {
+        eprintln!("warning: {warning}");
+    }
+}

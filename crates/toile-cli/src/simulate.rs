@@ -19,12 +19,12 @@ use toile::scene::{Cloth, Mesh, Scene};
 pub fn simulate(file: SceneFile, options: &FitOptions, running: &Running) -> Result<Outcome> {
     output::check(&running.out, "metrics.json")?;
     check_bodies(&file.scene, running.place.backend)?;
+    if !running.quiet {
+        fit::tell_of_files(&file.warnings);
+    }
     let fit = fit::look(&file.scene, options)?;
     let scene = &fit.scene;
     if !running.quiet {
-        for warning in &file.warnings {
-            eprintln!("warning: {warning}");
-        }
         fit::tell(&fit);
     }
     let computer = match running.place.backend {

@@ -1,19 +1,27 @@
 //! Bodies from OBJ, PLY, glTF and GLB files.
 
 mod gltf_body;
+mod gltf_compressed;
+mod gltf_extensions;
 mod gltf_file;
+mod gltf_json;
 pub(crate) mod gltf_rig;
 pub(crate) mod mesh_sequence;
 pub(crate) mod moving_body;
+mod number;
 mod obj;
+mod obj_lines;
+mod pieces;
 mod ply;
 mod ply_header;
 mod soup;
 
 use crate::body::gltf_rig::ClipChoice;
 use crate::error::{Fault, FileError, Found, Place, rounded};
+use crate::format::{self, BodyFormat};
 use crate::plausible::{HEIGHTS, WIDTH_MAX};
 use crate::source;
+use crate::unread::Unread;
 use std::path::Path;
 use toile_scene::Mesh;
 
@@ -80,26 +88,26 @@ fn read(bytes: &[u8], name: &Path, folder: Option<&Path>, options: &BodyOptions)
     if options.clip.is_none() && options.time != 0.0 {
         return Err(Found::malformed(Place::File, "a time is one in a clip: name the clip, or leave the time out"));
     }
-    let ending = name.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-    let mut warnings = Vec::new();
-    let soup = match ending.to_ascii_lowercase().as_str() {
-        "obj" | "ply" if options.clip.is_some() => {
+    let format = format::of_body(bytes, name, ENDINGS)?;
+    let (mut warnings, mut unread) = (Vec::new(), Unread::default());
+    let soup = match format {
+        BodyFormat::Obj | BodyFormat::Ply if options.clip.is_some() => {
             return Err(Found::malformed(Place::File, "files of its kind have no clips: leave the clip out"));
         }
-        "obj" => obj::read(bytes)?,
-        "ply" => ply::read(bytes)?,
-        "gltf" | "glb" => {
+        BodyFormat::Obj => obj::read(bytes, &mut unread)?,
+        BodyFormat::Ply => ply::read(bytes, &mut unread)?,
+        BodyFormat::Gltf => {
             let choice = options.clip.as_deref().map_or(ClipChoice::None, ClipChoice::Named);
-            gltf_body::read(bytes, folder, choice, options.time, options.metres_per_unit)?.soup
+            gltf_body::read(bytes, folder, choice, options.time, options.metres_per_unit, &mut unread)?.soup
         }
-        _ => return Err(Fault::UnknownFormat(ENDINGS).into()),
     };
+    warnings.extend(unread.sentences());
     let mesh = soup.clean(options.metres_per_unit, &mut warnings)?.mesh;
     check_height(&mesh, options.metres_per_unit)?;
     Ok(BodyFile { mesh, warnings })
 }
 
-/// Refuses a body that is no person's size.
+/// Refuses a body that is no person's size. It need not stand: then its longest side is its height.
 pub(crate) fn check_height(mesh: &Mesh, metres_per_unit: f64) -> Result<(), Found> {
     let [low, high] = mesh.bounds().expect("a clean mesh has vertices");
     let size = high.as_dvec3() - low.as_dvec3();
@@ -110,6 +118,10 @@ pub(crate) fn check_height(mesh: &Mesh, metres_per_unit: f64) -> Result<(), Foun
         if width > WIDTH_MAX {
             return Err(Fault::BodyWidth { width: rounded(width) }.into());
         }
+        return Ok(());
+    }
+    let height = height.max(size.max_element());
+    if plausible(height) {
         return Ok(());
     }
     let typical = 1.7;

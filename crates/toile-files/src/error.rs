@@ -105,7 +105,7 @@ pub enum Fault {
         count: usize,
     },
     /// A body without triangles.
-    #[error("the body is empty: it has {0} vertices and no triangle")]
+    #[error("the body is empty: it has {0} vertices and no triangle; export the mesh with its faces")]
     Empty(usize),
     /// A body that is no human size in the declared unit.
     #[error(
@@ -150,7 +150,12 @@ pub enum Fault {
         known: Vec<String>,
     },
     /// Two edges of an outline cross or touch.
-    #[error("the outline crosses itself: edge {0} meets edge {1} near ({x:.4}, {y:.4}) m", edges[0], edges[1])]
+    #[error(
+        "the outline crosses itself: edge {0} meets edge {1} near ({x:.4}, {y:.4}) m; \
+         draw it as one loop, or split the panel there into two that are stitched",
+        edges[0],
+        edges[1]
+    )]
     SelfCrossing {
         /// The two edges.
         edges: [usize; 2],

@@ -2,11 +2,16 @@
 
 mod crossing;
 mod garment_json;
+mod slit;
 
 use crate::error::{Fault, FileError, Found, Place, rounded};
-use crate::garment::garment_json::{CurvatureJson, EdgeJson, Number, PanelJson, SideJson, StitchPart};
+use crate::format;
+use crate::garment::garment_json::{
+    CurvatureJson, EdgeJson, Number, PanelJson, PropertiesJson, SideJson, StitchPart, flag,
+};
 use crate::plausible::LARGEST_PANEL;
 use crate::source;
+use crate::unread::Unread;
 use glam::{DQuat, DVec2, DVec3, EulerRot};
 use std::collections::HashMap;
 use std::path::Path;
@@ -24,14 +29,32 @@ const RADIUS_ROUNDING: f64 = 1e-6;
 /// Distance [m] of the polyline from the curve where the outline is tested for crossings.
 const CROSSING_TOLERANCE: f64 = 1e-4;
 
-/// Reads a garment in GarmentCode's JSON.
+/// Units in a metre where a file does not say: the format's are centimetres.
+const UNITS_IN_METER: f64 = 100.0;
+
+/// Largest file [bytes]. Patterns have some ten thousand, and a small file can ask for much memory.
+const LARGEST_FILE: usize = 8 << 20;
+
+/// A garment as it was read.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct GarmentFile {
+    /// The garment.
+    pub garment: Garment,
+    /// What the file leaves open or has that is not read, each with its name.
+    pub warnings: Vec<String>,
+}
+
+/// Reads a garment in GarmentCode's JSON, and what is unusual about the file.
+///
+/// A cut into a panel, drawn as an outline that goes in along a line and comes back on it, is opened by half a millimetre.
 ///
 /// # Errors
 ///
 /// [`FileError`] with panel and edge when the file cannot be read, is not valid JSON, has an outline that is open, crosses
 /// itself or has a coordinate that is not finite, an edge whose curve cannot exist, a panel larger than 10 m, or a stitch
 /// to a panel or edge that does not exist.
-pub fn read_garment(path: &Path) -> Result<Garment, FileError> {
+pub fn read_garment_file(path: &Path) -> Result<GarmentFile, FileError> {
     let text = source::read_text(path)?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     parse(&text, &stem).map_err(|found| found.in_file(path))
@@ -41,24 +64,99 @@ pub fn read_garment(path: &Path) -> Result<Garment, FileError> {
 ///
 /// # Errors
 ///
-/// As [`read_garment`].
-pub fn parse_garment(text: &str, name: &str) -> Result<Garment, FileError> {
+/// As [`read_garment_file`].
+pub fn parse_garment_file(text: &str, name: &str) -> Result<GarmentFile, FileError> {
     let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
-    parse(text, &stem).map_err(|found| found.in_file(name))
+    parse(text.strip_prefix('\u{feff}').unwrap_or(text), &stem).map_err(|found| found.in_file(name))
 }
 
-fn parse(text: &str, stem: &str) -> Result<Garment, Found> {
-    let json = garment_json::read(text).map_err(|error| {
+/// The garment of [`read_garment_file`] alone.
+///
+/// # Errors
+///
+/// As [`read_garment_file`].
+pub fn read_garment(path: &Path) -> Result<Garment, FileError> {
+    read_garment_file(path).map(|file| file.garment)
+}
+
+/// The garment of [`parse_garment_file`] alone.
+///
+/// # Errors
+///
+/// As [`read_garment_file`].
+pub fn parse_garment(text: &str, name: &str) -> Result<Garment, FileError> {
+    parse_garment_file(text, name).map(|file| file.garment)
+}
+
+/// How the file's numbers are meant.
+struct Conventions {
+    units_in_meter: f64,
+    /// Whether control points are flat positions, not parts of the edge's chord.
+    absolute: bool,
+    /// Whether a translation is that of the mean of the vertices as it lies flat, not of the flat origin.
+    centred: bool,
+}
+
+impl Conventions {
+    fn of(properties: &PropertiesJson, warnings: &mut Vec<String>) -> Result<Self, Found> {
+        let wrong = |key: &str, message: String| Found::malformed(Place::Key(format!("properties.{key}")), message);
+        let units_in_meter = match properties.units_in_meter {
+            Some(Number(units)) if units.is_finite() && units > 0.0 => units,
+            Some(Number(units)) => {
+                return Err(wrong("units_in_meter", format!("it is {units} and must be a positive number")));
+            }
+            None => {
+                warnings.push("it has no key \"properties.units_in_meter\": read as centimetres".into());
+                UNITS_IN_METER
+            }
+        };
+        let absolute = match &properties.curvature_coords {
+            None => false,
+            Some(coords) => match coords.as_str() {
+                Some("relative") => false,
+                Some("absolute") => true,
+                _ => {
+                    let message = format!("{coords} is not known; there is: \"relative\", \"absolute\"");
+                    return Err(wrong("curvature_coords", message));
+                }
+            },
+        };
+        let centred = match &properties.normalize_panel_translation {
+            None => false,
+            Some(value) => flag(value).ok_or_else(|| {
+                wrong("normalize_panel_translation", format!("{value} is not known; there is: true, false"))
+            })?,
+        };
+        Ok(Self { units_in_meter, absolute, centred })
+    }
+}
+
+fn parse(text: &str, stem: &str) -> Result<GarmentFile, Found> {
+    if text.len() > LARGEST_FILE {
+        let what = format!("a garment of more than {LARGEST_FILE} bytes");
+        return Err(Fault::Unsupported(what).into());
+    }
+    format::check_magic(text.as_bytes())?;
+    let mut unread = Unread::default();
+    let json = garment_json::read(text, &mut unread).map_err(|error| {
         // serde_json repeats the place at the end of its message.
         let message = error.to_string();
         let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(start, _)| start);
-        Found::malformed(Place::Column(error.line(), error.column()), format!("the JSON is not valid: {message}"))
+        if !text.trim_start().starts_with(['{', '[']) {
+            let message = "it is not JSON: a garment is GarmentCode's JSON, a file like NAME_specification.json";
+            return Found::malformed(Place::File, message);
+        }
+        let place = Place::Column(error.line(), error.column());
+        if message == "missing field `pattern`" {
+            let message =
+                "it has no key \"pattern\": a garment is GarmentCode's JSON, a file like NAME_specification.json";
+            return Found::malformed(Place::File, message);
+        }
+        Found::malformed(place, format!("the JSON is not valid: {message}"))
     })?;
-    let units_in_meter = json.properties.units_in_meter.0;
-    if !(units_in_meter.is_finite() && units_in_meter > 0.0) {
-        let message = format!("it is {units_in_meter} and must be a positive number");
-        return Err(Found::malformed(Place::Key("properties.units_in_meter".into()), message));
-    }
+    let mut warnings = Vec::new();
+    let conventions = Conventions::of(&json.properties, &mut warnings)?;
+    warnings.extend(unread.sentences());
     if json.pattern.panels.0.is_empty() {
         return Err(Found::malformed(Place::File, "the garment has no panel"));
     }
@@ -68,7 +166,7 @@ fn parse(text: &str, stem: &str) -> Result<Garment, Found> {
         if numbers.insert(name.as_str(), panels.len()).is_some() {
             return Err(Found::malformed(Place::Panel(name.clone()), "there are two panels of this name"));
         }
-        panels.push(convert_panel(name, panel, units_in_meter)?);
+        panels.push(convert_panel(name, panel, &conventions)?);
     }
     let mut seams = Vec::new();
     let mut sewn = HashMap::new();
@@ -76,10 +174,11 @@ fn parse(text: &str, stem: &str) -> Result<Garment, Found> {
         seams.push(convert_stitch(index, stitch, &panels, &numbers, &mut sewn)?);
     }
     let name = stem.strip_suffix("_specification").unwrap_or(stem).to_string();
-    Ok(Garment { name, panels, seams, fabric: None })
+    Ok(GarmentFile { garment: Garment { name, panels, seams, fabric: None }, warnings })
 }
 
-fn convert_panel(name: &str, json: &PanelJson, units_in_meter: f64) -> Result<Panel, Found> {
+fn convert_panel(name: &str, json: &PanelJson, conventions: &Conventions) -> Result<Panel, Found> {
+    let units_in_meter = conventions.units_in_meter;
     let place = || Place::Panel(name.into());
     let point = |[x, y]: [Number; 2]| DVec2::new(x.0, y.0) / units_in_meter;
     for (index, vertex) in json.vertices.iter().enumerate() {
@@ -94,15 +193,22 @@ fn convert_panel(name: &str, json: &PanelJson, units_in_meter: f64) -> Result<Pa
     if !(translation.is_finite() && rotation.is_finite()) {
         return Err(Found::at(place(), Fault::NotFinite("the translation or rotation".into())));
     }
+    let mut placement = Placement { rotation, translation };
+    if conventions.centred {
+        let mean = json.vertices.iter().map(|vertex| point(*vertex)).sum::<DVec2>() / json.vertices.len().max(1) as f64;
+        // The format moves the panel by the mean as it lies flat, whatever its rotation.
+        placement.translation += mean.extend(0.0) - rotation * mean.extend(0.0);
+    }
     let ends = loop_ends(name, json)?;
     let mut edges = Vec::new();
     for (index, (edge, [a, b])) in json.edges.iter().zip(&ends).enumerate() {
         let [a, b] = [point(json.vertices[*a]), point(json.vertices[*b])];
-        let curve = convert_curve(edge, a, b, units_in_meter)
+        let curve = convert_curve(edge, a, b, conventions)
             .map_err(|fault| Found::at(Place::Edge(name.into(), index), fault))?;
         edges.push(Edge { start: a, curve, label: edge.label.clone() });
     }
-    let panel = Panel { name: name.into(), edges, placement: Placement { rotation, translation } };
+    slit::open(&mut edges);
+    let panel = Panel { name: name.into(), edges, placement };
     check_size(&panel, units_in_meter)?;
     let polylines: Vec<_> = (0..panel.edges.len()).map(|edge| panel.polyline(edge, CROSSING_TOLERANCE)).collect();
     match crossing::first_crossing(&polylines) {
@@ -138,6 +244,11 @@ fn loop_ends(name: &str, json: &PanelJson) -> Result<Vec<[usize; 2]>, Found> {
     for (index, [_, end]) in ends.iter().enumerate() {
         let next = (index + 1) % ends.len();
         if *end != ends[next][0] {
+            if *end == ends[0][0] {
+                let message = "a second outline begins after this edge, and a panel has one: draw a hole as a cut from the \
+                               rim, an edge in to the hole and the same edge back, or split the panel through the hole";
+                return Err(Found::malformed(Place::Edge(name.into(), index), message));
+            }
             let message = format!(
                 "the outline is not closed: the edge ends at vertex {end} and edge {next} starts at vertex {}",
                 ends[next][0]
@@ -148,14 +259,18 @@ fn loop_ends(name: &str, json: &PanelJson) -> Result<Vec<[usize; 2]>, Found> {
     Ok(ends)
 }
 
-fn convert_curve(edge: &EdgeJson, a: DVec2, b: DVec2, units_in_meter: f64) -> Result<Curve, Fault> {
+fn convert_curve(edge: &EdgeJson, a: DVec2, b: DVec2, conventions: &Conventions) -> Result<Curve, Fault> {
+    let units_in_meter = conventions.units_in_meter;
     let chord = b - a;
     if chord.length() < SHORTEST_EDGE {
         let message = format!("its ends are the same point, ({}, {}) m", a.x, a.y);
         return Err(Fault::Malformed(message));
     }
     let control = |[along, aside]: [f64; 2]| {
-        let point = a + chord * along + chord.perp() * aside;
+        let point = match conventions.absolute {
+            true => DVec2::new(along, aside) / units_in_meter,
+            false => a + chord * along + chord.perp() * aside,
+        };
         if point.is_finite() {
             Ok(point)
         } else {

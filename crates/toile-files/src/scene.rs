@@ -8,7 +8,7 @@ mod toml_text;
 mod value;
 
 use crate::error::{FileError, Found, Place};
-use crate::garment::read_garment;
+use crate::garment::read_garment_file;
 use crate::scene::problem::Problem;
 use crate::scene::scene_toml::{
     CornerToml, FabricToml, FrictionToml, MapsToml, PinToml, PolishToml, RuleToml, SceneToml, SheetToml, WindToml,
@@ -36,7 +36,8 @@ pub struct SceneFile {
     pub scene: Scene,
     /// Number of frames that it runs.
     pub frames: u32,
-    /// What is unusual about its bodies; see [`BodyFile::warnings`](crate::BodyFile::warnings).
+    /// What is unusual about its bodies and garments, each with its file; see
+    /// [`BodyFile::warnings`](crate::BodyFile::warnings) and [`GarmentFile::warnings`](crate::GarmentFile::warnings).
     pub warnings: Vec<String>,
 }
 
@@ -67,16 +68,18 @@ fn convert(toml: SceneToml, stem: &str, folder: &Path) -> Result<SceneFile, Prob
         let fabric = fabric(&sheet.fabric, format!("sheet.{index}.fabric"))?;
         cloths.push(Cloth::Sheet(Sheet { fabric, ..convert_sheet(index, sheet, toml.n)? }));
     }
+    let mut warnings = Vec::new();
     for (index, garment) in toml.garment.iter().enumerate() {
         let fabric = fabric(&garment.fabric, format!("garment.{index}.fabric"))?;
-        cloths.push(Cloth::Garment(Garment { fabric, ..read_garment(&folder.join(&garment.file))? }));
+        let read = read_garment_file(&folder.join(&garment.file))?;
+        warnings.extend(read.warnings.iter().map(|warning| format!("{}: {warning}", garment.file)));
+        cloths.push(Cloth::Garment(Garment { fabric, ..read.garment }));
     }
     if cloths.is_empty() {
         let message = "the scene has no cloth: give a [[sheet]] or a [[garment]]";
         return Err(Found::malformed(Place::File, message).into());
     }
     let mut bodies = Vec::new();
-    let mut warnings = Vec::new();
     for (index, body) in toml.body.iter().enumerate() {
         let (body, new_warnings) = scene_body::convert_body(index, body, folder)?;
         bodies.push(body);

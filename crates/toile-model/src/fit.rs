@@ -7,6 +7,7 @@ mod figure;
 pub(crate) mod finding;
 mod following;
 mod laid;
+mod outside;
 mod pose;
 mod section;
 mod sleeves;
@@ -18,7 +19,7 @@ use clearing::Obstacle;
 pub use error::FitError;
 use figure::Figure;
 use finding::Finding;
-use glam::DMat3;
+use glam::{DMat3, DVec2, DVec3};
 use laid::Laid;
 use section::Skin;
 use sleeves::Sleeve;
@@ -109,10 +110,17 @@ impl Fit {
         Ok(())
     }
 
-    /// Moves garments to the landmarks of the body, chooses its pose, turns sleeves to its arms, and moves panels out of it.
+    /// Turns panels outside out, moves garments to the landmarks of the body, chooses its pose, turns sleeves to its arms, and moves panels out of it.
     fn place(&mut self) -> Result<(), FitError> {
         let Some(body) = self.body() else { return Ok(()) };
-        if let Some(figure) = Figure::of(&Skin::of(body)) {
+        let figure = Figure::of(&Skin::of(body));
+        let centre = body.bounds().map_or(DVec3::ZERO, |[low, high]| low.midpoint(high).as_dvec3());
+        let middle = figure.as_ref().map_or(DVec2::new(centre.x, centre.z), |figure| figure.middle);
+        for cloth in &mut self.scene.cloths {
+            let Cloth::Garment(garment) = cloth else { continue };
+            self.findings.extend(outside::turn(garment, &Laid::all(garment), middle));
+        }
+        if let Some(figure) = figure {
             for cloth in &mut self.scene.cloths {
                 let Cloth::Garment(garment) = cloth else { continue };
                 self.findings.extend(following::follow(garment, &Laid::all(garment), &figure)?);

@@ -2,7 +2,7 @@
 
 use crate::args::Outfit;
 use anyhow::{Result, bail};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use toile::files::{self, BodyOptions, Fault, SceneFile};
 use toile::model::FitOptions;
 use toile::scene::{Body, Cloth, Fabric, Garment, MovingMesh, Scene, Settings, VelocityModification};
@@ -24,13 +24,15 @@ pub fn read(outfit: &Outfit) -> Result<SceneFile> {
             files::parse_body(BODY, BODY_NAME, &BodyOptions { clip, metres_per_unit: 1.0, ..options })?
         }
     };
+    let (garments, mut warnings) = read_garments(outfit)?;
+    warnings.splice(..0, body.warnings);
     let scene = Scene {
         name: "outfit".to_owned(),
-        cloths: read_garments(outfit)?.into_iter().map(Cloth::Garment).collect(),
+        cloths: garments.into_iter().map(Cloth::Garment).collect(),
         bodies: vec![Body::Mesh(body.mesh)],
         settings: settings(outfit)?,
     };
-    Ok(SceneFile { scene, frames: 0, warnings: body.warnings })
+    Ok(SceneFile { scene, frames: 0, warnings })
 }
 
 /// Reads the body of the outfit with its motion, and what is unusual about it.
@@ -52,16 +54,19 @@ pub fn walking_woman(clip: &str) -> Result<MovingMesh> {
     Ok(files::parse_moving_body(BODY, BODY_NAME, &options)?.body)
 }
 
-/// Reads the garments of the outfit, inner ones first.
-pub fn read_garments(outfit: &Outfit) -> Result<Vec<Garment>> {
+/// Reads the garments of the outfit, inner ones first, and what is unusual about them.
+pub fn read_garments(outfit: &Outfit) -> Result<(Vec<Garment>, Vec<String>)> {
     if outfit.garments.files.is_empty() {
-        return Ok(vec![files::parse_garment(GARMENT, "dress")?]);
+        return Ok((vec![files::parse_garment(GARMENT, "dress")?], Vec::new()));
     }
-    let read = |(path, own): &(PathBuf, Option<String>)| {
+    let (mut garments, mut warnings) = (Vec::new(), Vec::new());
+    for (path, own) in &outfit.garments.files {
         let fabric = own.as_deref().map(fabric).transpose()?;
-        Ok(Garment { fabric, ..files::read_garment(path)? })
-    };
-    outfit.garments.files.iter().map(read).collect()
+        let file = files::read_garment_file(path)?;
+        warnings.extend(file.warnings.iter().map(|warning| format!("{}: {warning}", path.display())));
+        garments.push(Garment { fabric, ..file.garment });
+    }
+    Ok((garments, warnings))
 }
 
 /// How the outfit is simulated.

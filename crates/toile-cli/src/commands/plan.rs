@@ -3,6 +3,7 @@
 use crate::args::PlanOf;
 use crate::bodies::{meshes, shapes};
 use crate::commands::outfit;
+use crate::fit;
 use crate::pattern::{self, Pattern};
 use crate::stdout::print;
 use anyhow::Result;
@@ -21,6 +22,7 @@ pub fn run(arguments: &PlanOf) -> Result<()> {
         Some(path) => read_scene(path, &arguments.set)?,
         None => outfit::read(&arguments.outfit)?,
     };
+    fit::tell_of_files(&file.warnings);
     let patterns = patterns(&file.scene)?;
     let plans = plans(&file.scene, &patterns)?;
     if let Some(path) = &arguments.picture {

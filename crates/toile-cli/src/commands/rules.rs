@@ -4,6 +4,7 @@ use crate::adapter;
 use crate::args::{Backend, Rules};
 use crate::bodies::shapes;
 use crate::engine::Computer;
+use crate::fit;
 use crate::interrupt::Interrupted;
 use crate::look::State;
 use crate::output;
@@ -49,6 +50,9 @@ pub fn run(arguments: &Rules) -> Result<()> {
     let running = &arguments.running;
     let file = read_scene(&arguments.scene, &arguments.set)?;
     output::check(&running.out, "rules.json")?;
+    if !running.quiet {
+        fit::tell_of_files(&file.warnings);
+    }
     let computer = match running.place.backend {
         Backend::Gpu => Computer::Gpu(adapter::open(&running.place)?),
         Backend::Reference => Computer::Reference,

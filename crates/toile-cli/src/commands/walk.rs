@@ -22,12 +22,11 @@ pub fn run(arguments: &Walk) -> Result<Outcome> {
         Some(motion) => (made(motion)?, Vec::new()),
         None => outfit::read_moving_body(outfit)?,
     };
+    let (garments, of_garments) = outfit::read_garments(outfit)?;
     if !arguments.running.quiet {
-        for warning in &warnings {
-            eprintln!("warning: {warning}");
-        }
+        fit::tell_of_files(&warnings);
+        fit::tell_of_files(&of_garments);
     }
-    let garments = outfit::read_garments(outfit)?;
     let settings =
         Settings { frame_rate: arguments.fps, wind: arguments.wind.map(Wind::new), ..outfit::settings(outfit)? };
     let dress_in = match &arguments.dress_in {

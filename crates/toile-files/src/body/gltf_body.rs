@@ -4,6 +4,7 @@ use crate::body::gltf_file::{GltfFile, check_most};
 use crate::body::gltf_rig::{ClipChoice, Hanging, Skeleton};
 use crate::body::soup::{Cleaned, Soup};
 use crate::error::{Fault, Found, Place};
+use crate::unread::Unread;
 use glam::{DMat4, Vec3};
 use gltf::Semantic;
 use gltf::accessor::Dimensions;
@@ -38,9 +39,15 @@ pub(crate) fn read(
     choice: ClipChoice<'_>,
     time: f64,
     metres_per_unit: f64,
+    unread: &mut Unread,
 ) -> Result<Surface, Found> {
-    let file = GltfFile::open(bytes, folder)?;
-    let mesh_nodes: Vec<_> = scene_nodes(&file.document).into_iter().filter(|node| node.mesh().is_some()).collect();
+    let file = GltfFile::open(bytes, folder, unread)?;
+    if let Some(other) =
+        file.document.scenes().map(|scene| scene.index()).find(|scene| Some(*scene) != shown(&file.document))
+    {
+        unread.note("scenes beside the one that is shown", || Place::Key(format!("scenes[{other}]")));
+    }
+    let mesh_nodes: Vec<_> = scene_nodes(&file).into_iter().filter(|node| node.mesh().is_some()).collect();
     let skeleton = Skeleton::of(&file, &mesh_nodes)?;
     let hangings: Vec<Hanging> = mesh_nodes.iter().map(|node| skeleton.hanging(node.index())).collect();
     let rig = skeleton.rig(&file, choice, metres_per_unit)?;
@@ -67,16 +74,27 @@ pub(crate) fn read(
     Ok(surface)
 }
 
-/// The nodes of the default scene, else of the first one, else of the file; parents first.
-fn scene_nodes(document: &gltf::Document) -> Vec<gltf::Node<'_>> {
-    let Some(scene) = document.default_scene().or_else(|| document.scenes().next()) else {
-        return document.nodes().collect();
-    };
+/// The default scene, else the first one.
+fn shown(document: &gltf::Document) -> Option<usize> {
+    document.default_scene().or_else(|| document.scenes().next()).map(|scene| scene.index())
+}
+
+/// The nodes of the scene that is shown, else of the file; parents first, and none that is hidden.
+fn scene_nodes(file: &GltfFile) -> Vec<gltf::Node<'_>> {
+    let document = &file.document;
+    let is_hidden = |node: &gltf::Node<'_>| file.hidden.get(node.index()) == Some(&true);
     let mut seen = vec![false; document.nodes().count()];
-    let mut open: Vec<_> = scene.nodes().collect();
+    let mut open: Vec<gltf::Node<'_>> = match shown(document).and_then(|scene| document.scenes().nth(scene)) {
+        Some(scene) => scene.nodes().collect(),
+        None => {
+            let mut is_child = vec![false; seen.len()];
+            document.nodes().flat_map(|node| node.children()).for_each(|child| is_child[child.index()] = true);
+            document.nodes().filter(|node| !is_child[node.index()]).collect()
+        }
+    };
     let mut nodes = Vec::new();
     while let Some(node) = open.pop() {
-        if !std::mem::replace(&mut seen[node.index()], true) {
+        if !is_hidden(&node) && !std::mem::replace(&mut seen[node.index()], true) {
             open.extend(node.children());
             nodes.push(node);
         }
@@ -93,6 +111,7 @@ impl Surface {
         morphs: &mut Morphs,
         displacement_count: &mut usize,
     ) -> Result<(), Found> {
+        // Points and lines have no surface.
         if !matches!(primitive.mode(), Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
             return Ok(());
         }
@@ -113,6 +132,7 @@ impl Surface {
         check_most("body", "displacements by morph targets", *displacement_count, MOST_SHARES)?;
         let targets = primitive.morph_targets().map(|target| Target::read(file, &target, positions.len()));
         let targets = targets.collect::<Result<Vec<_>, _>>()?;
+        let mut mirrored = Vec::with_capacity(positions.len());
         for (vertex, position) in positions.iter().enumerate() {
             for (number, target) in targets.iter().enumerate() {
                 morphs.displacements.extend(target.displacement(vertex, (hanging.targets.start + number) as u32));
@@ -132,13 +152,17 @@ impl Surface {
                 self.skin.influences.push(Influence { joint: hanging.joints.start as u32, weight: 1.0 });
                 self.matrices[hanging.joints.start]
             };
+            let is_mirrored = matrix.determinant() < 0.0;
+            mirrored.push(is_mirrored);
             self.skin.influence_offsets.push(self.skin.influences.len() as u32);
             self.skin.positions.push(Vec3::from(*position));
             self.skin.normals.push(normal);
             self.soup.push_vertex(matrix.transform_point3(posed[0]), || Place::Accessor(accessor.index()))?;
-            self.soup.normals[first + vertex] = turned_normal(matrix, posed[1]);
+            // The cofactors turn a normal as the winding goes, which is that of the file no more.
+            let side = if is_mirrored { -1.0 } else { 1.0 };
+            self.soup.normals[first + vertex] = turned_normal(matrix, posed[1]) * side;
         }
-        add_triangles(file, primitive, positions.len(), &mut self.soup)
+        add_triangles(file, primitive, &mirrored, &mut self.soup)
     }
 
     /// Adds the shares of a vertex to the skin and gives the mean of its joints' matrices by weight.
@@ -283,12 +307,14 @@ fn check_count(accessor: &gltf::Accessor<'_>, vertex_count: usize) -> Result<(),
     Err(Found::malformed(Place::Accessor(accessor.index()), message))
 }
 
+/// A triangle that its transform mirrors is wound the other way, as the format says.
 fn add_triangles(
     file: &GltfFile,
     primitive: &gltf::Primitive<'_>,
-    vertex_count: usize,
+    mirrored: &[bool],
     soup: &mut Soup,
 ) -> Result<(), Found> {
+    let vertex_count = mirrored.len();
     let first = (soup.positions.len() - vertex_count) as u32;
     let (indices, place) = match primitive.indices() {
         Some(accessor) => {
@@ -302,8 +328,12 @@ fn add_triangles(
         return Err(Found::at(place, Fault::OutOfRange { what: "vertex", index, count }));
     }
     check_most("body", "triangles", soup.triangles.len() + indices.len() / 3, MOST)?;
-    let corner = |at: usize| first + indices[at][0];
-    let mut push = |a, b, c| soup.triangles.push([corner(a), corner(b), corner(c)]);
+    let mut push = |a: usize, b: usize, c: usize| {
+        let corners = [a, b, c].map(|at| indices[at][0]);
+        let is_mirrored = corners.iter().filter(|corner| mirrored[**corner as usize]).count() > 1;
+        let [a, b, c] = corners.map(|corner| first + corner);
+        soup.triangles.push(if is_mirrored { [a, c, b] } else { [a, b, c] });
+    };
     match primitive.mode() {
         Mode::TriangleStrip => {
             (2..indices.len()).for_each(|i| if i % 2 == 0 { push(i - 2, i - 1, i) } else { push(i - 1, i - 2, i) });

@@ -1,11 +1,14 @@
 //! A glTF or GLB file with its buffers, and the numbers of its accessors.
 
+use crate::body::gltf_json::{GltfJson, list};
+use crate::body::{gltf_compressed, gltf_extensions};
 use crate::error::{Fault, Found, Place};
+use crate::unread::Unread;
 use base64::Engine;
 use gltf::accessor::sparse::IndexType;
 use gltf::accessor::{DataType, Dimensions};
-use gltf::buffer::Source;
-use gltf::json::validation::Checked;
+use gltf::json::validation::{Checked, Error, Validate};
+use serde_json::Value;
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -15,38 +18,30 @@ const MOST_ZEROS: usize = 1 << 23;
 /// A glTF file with its buffers.
 pub(crate) struct GltfFile {
     pub document: gltf::Document,
+    /// Whether the file hides a node and all below it.
+    pub hidden: Vec<bool>,
     buffers: Vec<Vec<u8>>,
 }
 
 impl GltfFile {
     /// Opens the bytes of a .gltf or .glb file; buffers in files of their own lie relative to the folder.
-    pub fn open(bytes: &[u8], folder: Option<&Path>) -> Result<Self, Found> {
-        if bytes.starts_with(b"glTF") {
-            check_chunks(bytes)?;
-        }
-        let gltf::Gltf { document, mut blob } = gltf::Gltf::from_slice_without_validation(bytes).map_err(gltf_fault)?;
-        let root = document.into_json();
+    pub fn open(bytes: &[u8], folder: Option<&Path>, unread: &mut Unread) -> Result<Self, Found> {
+        let (text, mut blob) = match bytes.starts_with(b"glTF") {
+            true => chunks(bytes, unread)?,
+            false => (bytes, None),
+        };
+        let mut json = GltfJson::read(text)?;
+        gltf_extensions::check(&json.root, unread)?;
+        let mut buffers = list(&json.root, "buffers")
+            .map(|(number, buffer)| load(number, buffer, &mut blob, folder))
+            .collect::<Result<Vec<_>, Found>>()?;
+        gltf_compressed::decode(&mut json.root, &mut buffers)?;
+        let hidden = json.hidden(unread);
+        let root = json.typed(unread)?;
         check_positions(&root)?;
         check_channels(&root)?;
-        let document = gltf::Document::from_json(root).map_err(gltf_fault)?;
-        let buffers = document
-            .buffers()
-            .map(|buffer| {
-                let what = format!("buffer {}", buffer.index());
-                let data = match buffer.source() {
-                    Source::Bin => blob
-                        .take()
-                        .ok_or_else(|| Found::malformed(Place::File, format!("{what} is not in the file")))?,
-                    Source::Uri(uri) => read_uri(uri, &what, folder)?,
-                };
-                if data.len() < buffer.length() {
-                    let (needed, available) = (buffer.length() as u128, data.len());
-                    return Err(Fault::Truncated { what, needed, available }.into());
-                }
-                Ok(data)
-            })
-            .collect::<Result<_, Found>>()?;
-        Ok(Self { document, buffers })
+        check_root(&root)?;
+        Ok(Self { document: gltf::Document::from_json_without_validation(root), hidden, buffers })
     }
 
     /// The numbers of an accessor, N per element. Normalised integers become 0..1 or −1..1.
@@ -101,12 +96,12 @@ impl GltfFile {
                 let bytes = self.elements(&view, accessor.offset(), [stride, element], count, &place)?;
                 bytes.chunks(stride).map(values).collect()
             }
-            None if accessor.sparse().is_some() => {
+            // The format says so, with or without elements that are given sparsely.
+            None => {
                 // These zeros take no place in the file that could bound their number.
                 check_most("accessor", "elements without data", count, MOST_ZEROS)?;
                 vec![[T::default(); N]; count]
             }
-            None => return Err(Found::malformed(place, "it has no data")),
         };
         if let Some(sparse) = accessor.sparse() {
             let (indices, new) = (sparse.indices(), sparse.values());
@@ -182,8 +177,9 @@ fn integer_range(data_type: DataType) -> f32 {
     }
 }
 
-/// Compares the lengths that a GLB declares with the file, so that the message can say what is missing and where.
-fn check_chunks(bytes: &[u8]) -> Result<(), Found> {
+/// The JSON and the binary chunk of a GLB. The lengths that it declares are compared with the file, so that the message can
+/// say what is missing and where.
+fn chunks<'a>(bytes: &'a [u8], unread: &mut Unread) -> Result<(&'a [u8], Option<&'a [u8]>), Found> {
     let word = |at: usize| bytes.get(at..at + 4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]) as usize);
     let truncated = |at: usize, what: &str, needed: usize| {
         let available = bytes.len().saturating_sub(at);
@@ -196,7 +192,7 @@ fn check_chunks(bytes: &[u8]) -> Result<(), Found> {
         return Err(truncated(0, "the GLB header", 12));
     };
     if version != 2 {
-        return Err(Found::malformed(Place::Byte(4), format!("GLB version {version} is not 2")));
+        return Err(Found::malformed(Place::Byte(4), format!("GLB version {version} is not 2: export it as glTF 2.0")));
     }
     if length > bytes.len() {
         return Err(truncated(0, "the GLB file by its header", length));
@@ -205,17 +201,54 @@ fn check_chunks(bytes: &[u8]) -> Result<(), Found> {
         let message = format!("the GLB header declares {length} bytes, less than the header itself");
         return Err(Found::malformed(Place::Byte(8), message));
     }
+    let (mut text, mut blob) = (None, None);
     let mut at = 12;
     while at < length {
-        let Some(chunk) = word(at).filter(|_| word(at + 4).is_some()) else {
+        let (Some(chunk), Some(kind)) = (word(at), bytes.get(at + 4..at + 8)) else {
             return Err(truncated(at, "a GLB chunk header", 8));
         };
         if chunk > length.saturating_sub(at + 8) {
             return Err(truncated(at + 8, "a GLB chunk", chunk));
         }
+        let data = &bytes[at + 8..at + 8 + chunk];
+        match kind {
+            b"JSON" if text.is_none() => text = Some(data),
+            b"BIN\0" if text.is_some() && blob.is_none() => blob = Some(data),
+            _ => {
+                let kind = String::from_utf8_lossy(kind).trim_end_matches('\0').to_owned();
+                unread.note(&format!("a chunk of the type {kind:?}"), || Place::Byte(at));
+            }
+        }
         at += 8 + chunk;
     }
-    Ok(())
+    if length < bytes.len() {
+        unread.note("what follows the GLB by its header", || Place::Byte(length));
+    }
+    match text {
+        Some(text) => Ok((text, blob)),
+        None => Err(Found::malformed(Place::Byte(12), "the GLB has no chunk of the type JSON")),
+    }
+}
+
+/// The checks of the crate, without which it would panic. What says nothing about the shape, or is allowed by the format, is no
+/// fault: bounds of positions, accessors of zeros, primitives without positions.
+fn check_root(root: &gltf::json::Root) -> Result<(), Found> {
+    let mut fault = None;
+    root.validate(root, gltf::json::Path::new, &mut |path, error| {
+        let allowed = error != Error::IndexOutOfBounds && {
+            let path = path().to_string();
+            let may_be_missing = path.starts_with("accessors") && path.ends_with("].bufferView");
+            let ends = ["[\"POSITION\"]", ".min", ".max"];
+            may_be_missing || ends.iter().any(|end| path.ends_with(end))
+        };
+        if fault.is_none() && !allowed {
+            fault = Some((path().to_string(), error));
+        }
+    });
+    match fault {
+        Some((path, error)) => Err(Found::malformed(Place::Key(path), format!("the glTF is not valid: {error}"))),
+        None => Ok(()),
+    }
 }
 
 /// The validation of the crate indexes the accessors of positions without a look at their number, and would panic.
@@ -254,27 +287,31 @@ fn check_channels(root: &gltf::json::Root) -> Result<(), Found> {
     Ok(())
 }
 
-fn gltf_fault(error: gltf::Error) -> Found {
-    match error {
-        gltf::Error::Deserialize(error) => {
-            let place = match error.line() {
-                0 => Place::File,
-                line => Place::Column(line, error.column()),
-            };
-            Found::malformed(place, format!("the glTF JSON is not valid: {error}"))
-        }
-        gltf::Error::Validation(errors) => {
-            let (place, message) = match errors.first() {
-                Some((path, error)) => (Place::Key(path.to_string()), error.to_string()),
-                None => (Place::File, "it is not valid glTF".into()),
-            };
-            Found::malformed(place, format!("the glTF is not valid: {message}"))
-        }
-        error => Found::malformed(Place::File, format!("it is not valid glTF: {error}")),
+/// The bytes of a buffer: the binary chunk of a GLB for the first one that names no other place.
+fn load(number: usize, buffer: &Value, blob: &mut Option<&[u8]>, folder: Option<&Path>) -> Result<Vec<u8>, Found> {
+    if gltf_compressed::is_fallback(buffer) {
+        return Ok(Vec::new());
     }
+    let what = format!("buffer {number}");
+    let data = match buffer.get("uri").and_then(Value::as_str) {
+        Some(uri) => read_uri(uri, &what, folder)?,
+        None => {
+            let absent = || Found::malformed(Place::File, format!("{what} is not in the file"));
+            blob.take().ok_or_else(absent)?.to_vec()
+        }
+    };
+    let length = buffer.get("byteLength").and_then(Value::as_u64).unwrap_or_default();
+    if (data.len() as u64) < length {
+        return Err(Fault::Truncated { what, needed: u128::from(length), available: data.len() }.into());
+    }
+    Ok(data)
 }
 
 fn read_uri(uri: &str, what: &str, folder: Option<&Path>) -> Result<Vec<u8>, Found> {
+    if uri.starts_with("http:") || uri.starts_with("https:") {
+        let message = format!("{what} lies on the web at \"{uri:.100}\": download it beside the file, or export a GLB");
+        return Err(Found::malformed(Place::File, message));
+    }
     if let Some(data) = uri.strip_prefix("data:") {
         let Some((_, text)) = data.split_once(";base64,") else {
             let message = format!("the data URI of {what} is not base64");

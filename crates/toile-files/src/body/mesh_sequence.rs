@@ -6,6 +6,7 @@ use crate::body::soup::{Cleaned, Soup};
 use crate::body::{BodyOptions, check_height};
 use crate::error::{Fault, FileError, Found, Place};
 use crate::source;
+use crate::unread::Unread;
 use glam::{DVec3, Vec3};
 use std::path::{Path, PathBuf};
 use toile_scene::{Mesh, MeshSequence, Motion, MovingMesh};
@@ -31,21 +32,23 @@ pub fn read_mesh_sequence(folder: &Path, frame_rate: f64, options: &BodyOptions)
         return Err(Found::malformed(Place::File, "the folder has no .obj file").in_file(folder));
     };
     let at_first = |found: Found| found.in_file(first);
-    let mut soup = read_soup(first)?;
+    let mut unread = Unread::default();
+    let mut soup = read_soup(first, &mut unread)?;
     // The faces as the files give them, which all must share.
     let (faces, vertex_count) = (soup.triangles.clone(), soup.positions.len());
     soup.normals.fill(DVec3::ZERO);
-    let mut warnings = Vec::new();
+    let mut warnings: Vec<String> = Vec::new();
     let cleaned = soup.clean(options.metres_per_unit, &mut warnings).map_err(at_first)?;
     check_height(&cleaned.mesh, options.metres_per_unit).map_err(at_first)?;
     let mut frames = vec![[cleaned.mesh.positions.clone(), cleaned.mesh.normals.clone()]];
     let mut torn = vec![false; vertex_count];
     for path in others {
-        let soup = read_soup(path)?;
+        let soup = read_soup(path, &mut unread)?;
         check_same(&soup, &faces, vertex_count, first).map_err(|found| found.in_file(path))?;
         let frame = follow(&soup, &cleaned, options.metres_per_unit, &mut torn).map_err(|found| found.in_file(path))?;
         frames.push(frame);
     }
+    warnings.extend(unread.sentences());
     let torn = torn.into_iter().filter(|torn| *torn).count();
     if torn > 0 {
         warnings.push(format!(
@@ -56,9 +59,9 @@ pub fn read_mesh_sequence(folder: &Path, frame_rate: f64, options: &BodyOptions)
     Ok(MovingBodyFile { body: MovingMesh { mesh: cleaned.mesh, motion }, warnings })
 }
 
-fn read_soup(path: &Path) -> Result<Soup, FileError> {
+fn read_soup(path: &Path, unread: &mut Unread) -> Result<Soup, FileError> {
     let bytes = source::read_bytes(path)?;
-    obj::read(&bytes).map_err(|found| found.in_file(path))
+    obj::read(&bytes, unread).map_err(|found| found.in_file(path))
 }
 
 fn check_same(soup: &Soup, faces: &[[u32; 3]], vertex_count: usize, first: &Path) -> Result<(), Found> {

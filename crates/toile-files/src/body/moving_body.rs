@@ -4,7 +4,9 @@ use crate::body::gltf_body;
 use crate::body::gltf_rig::ClipChoice;
 use crate::body::{BodyOptions, check_height};
 use crate::error::{Fault, FileError, Found};
+use crate::format::{self, BodyFormat};
 use crate::source;
+use crate::unread::Unread;
 use std::path::Path;
 use toile_scene::{Motion, MovingMesh};
 
@@ -41,18 +43,18 @@ pub fn parse_moving_body(bytes: &[u8], name: &str, options: &BodyOptions) -> Res
 
 fn read(bytes: &[u8], name: &Path, folder: Option<&Path>, options: &BodyOptions) -> Result<MovingBodyFile, Found> {
     assert!(options.metres_per_unit > 0.0, "the length of a unit is positive");
-    let ending = name.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase();
-    match ending.as_str() {
-        "gltf" | "glb" => {}
-        "obj" | "ply" => {
+    match format::of_body(bytes, name, ".gltf, .glb")? {
+        BodyFormat::Gltf => {}
+        BodyFormat::Obj | BodyFormat::Ply => {
+            let ending = name.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
             let what = format!("the motion of a .{ending} file, which has none (a .gltf or .glb file can have clips),");
             return Err(Fault::Unsupported(what).into());
         }
-        _ => return Err(Fault::UnknownFormat(".gltf, .glb").into()),
     }
     let choice = options.clip.as_deref().map_or(ClipChoice::First, ClipChoice::Named);
-    let mut surface = gltf_body::read(bytes, folder, choice, 0.0, options.metres_per_unit)?;
-    let mut warnings = Vec::new();
+    let mut unread = Unread::default();
+    let mut surface = gltf_body::read(bytes, folder, choice, 0.0, options.metres_per_unit, &mut unread)?;
+    let mut warnings: Vec<String> = unread.sentences().collect();
     let cleaned = std::mem::take(&mut surface.soup).clean(options.metres_per_unit, &mut warnings)?;
     check_height(&cleaned.mesh, options.metres_per_unit)?;
     let torn = surface.torn_count(&cleaned);

@@ -1,12 +1,63 @@
-//! PLY, ASCII and binary: the elements `vertex` and `face`; other elements and properties are passed over.
+//! PLY, ASCII and binary: the elements `vertex`, `face` and `tristrips`.
 
+use crate::body::number::{no_number, number};
 use crate::body::ply_header::{Element, Encoding, Header, Property, Scalar};
 use crate::body::soup::Soup;
 use crate::error::{Fault, Found, Place};
+use crate::source;
+use crate::unread::Unread;
 use glam::DVec3;
 
-/// Reads a PLY file. Positions stay in the file's unit.
-pub(crate) fn read(bytes: &[u8]) -> Result<Soup, Found> {
+const POSITION_AND_NORMAL: [&str; 6] = ["x", "y", "z", "nx", "ny", "nz"];
+
+/// Names of the list of corners.
+const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
+
+/// Elements and properties that say nothing about the surface, each with its reason; `*` is any element.
+const NEEDLESS: [(&str, &[&str], &str); 7] = [
+    ("*", &["red", "green", "blue", "alpha", "r", "g", "b", "a"], "colours"),
+    (
+        "*",
+        &[
+            "diffuse_red",
+            "diffuse_green",
+            "diffuse_blue",
+            "ambient_red",
+            "ambient_green",
+            "ambient_blue",
+            "specular_red",
+            "specular_green",
+            "specular_blue",
+            "ambient_coeff",
+            "diffuse_coeff",
+            "specular_coeff",
+            "specular_power",
+            "material_index",
+            "material_indices",
+        ],
+        "colours",
+    ),
+    (
+        "*",
+        &["s", "t", "u", "v", "texture_u", "texture_v", "texture_s", "texture_t", "texcoord", "texnumber", "tx", "ty"],
+        "texture coordinates",
+    ),
+    (
+        "*",
+        &["quality", "confidence", "intensity", "value", "flags", "radius", "scalar"],
+        "what a scanner notes at a point",
+    ),
+    ("face", &["nx", "ny", "nz"], "normals of flat faces, which their corners give"),
+    ("edge", &[], "lines have no surface"),
+    ("material", &[], "colours"),
+];
+
+/// So many properties that are not read are told by name.
+const MOST_NAMES: usize = 8;
+
+/// Reads a PLY file. Positions stay in the file's unit. What is not read is noted.
+pub(crate) fn read(bytes: &[u8], unread: &mut Unread) -> Result<Soup, Found> {
+    let bytes = &*source::utf8(bytes);
     let header = Header::read(bytes)?;
     let mut values = Values { bytes, at: header.length, line: header.lines, encoding: header.encoding };
     let mut soup = Soup::default();
@@ -15,15 +66,55 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Soup, Found> {
         match element.name.as_str() {
             "vertex" => read_vertices(element, &mut values, &mut soup)?,
             "face" => read_faces(element, &mut values, &mut soup)?,
+            "tristrips" => read_strips(element, &mut values, &mut soup)?,
             _ => pass_over(element, &mut values)?,
         }
+        note(element, unread);
+    }
+    values.pass_spaces();
+    if values.left() > 0 {
+        unread.note("what follows the last element", || values.place());
     }
     soup.check_indices(0)?;
     Ok(soup)
 }
 
+/// Notes what of an element is not read.
+fn note(element: &Element, unread: &mut Unread) {
+    let name = element.name.as_str();
+    let read: &[&str] = match name {
+        "vertex" => &POSITION_AND_NORMAL,
+        "face" | "tristrips" => &CORNERS,
+        _ => {
+            if !NEEDLESS.iter().any(|(known, properties, _)| *known == name && properties.is_empty()) {
+                unread.note(&format!("the element \"{}\"", shortened(name)), || Place::File);
+            }
+            return;
+        }
+    };
+    let is_unread = |property: &&str| {
+        let is_needless =
+            |(of, properties, _): &(&str, &[&str], &str)| (*of == "*" || *of == name) && properties.contains(property);
+        !read.contains(property) && !NEEDLESS.iter().any(is_needless)
+    };
+    let names = element.properties.iter().map(|property| property.name.as_str());
+    let names: Vec<String> = names.filter(is_unread).map(|name| format!("\"{}\"", shortened(name))).collect();
+    // Vertex groups, which have no end, are written as properties.
+    let (told, others) = names.split_at(names.len().min(MOST_NAMES));
+    if !told.is_empty() {
+        let others = if others.is_empty() { String::new() } else { format!(" and {} more", others.len()) };
+        let properties = if names.len() == 1 { "property" } else { "properties" };
+        unread.note(&format!("the {properties} {}{others} of {name}", told.join(", ")), || Place::File);
+    }
+}
+
+/// Names of damaged files can have any length.
+fn shortened(name: &str) -> &str {
+    &name[..name.floor_char_boundary(40)]
+}
+
 fn read_vertices(element: &Element, values: &mut Values, soup: &mut Soup) -> Result<(), Found> {
-    const NAMES: [&str; 6] = ["x", "y", "z", "nx", "ny", "nz"];
+    const NAMES: [&str; 6] = POSITION_AND_NORMAL;
     let slots: Vec<Option<usize>> =
         element.properties.iter().map(|property| NAMES.iter().position(|name| *name == property.name)).collect();
     if let Some(missing) = NAMES[..3].iter().find(|name| element.scalar(name).is_none()) {
@@ -58,42 +149,77 @@ fn read_vertices(element: &Element, values: &mut Values, soup: &mut Soup) -> Res
 }
 
 fn read_faces(element: &Element, values: &mut Values, soup: &mut Soup) -> Result<(), Found> {
-    let is_corners = |property: &Property| {
-        property.list_count.is_some() && matches!(property.name.as_str(), "vertex_indices" | "vertex_index")
-    };
-    if !element.properties.iter().any(is_corners) {
-        let message = "the element face has no list \"vertex_indices\"";
-        return Err(Found::malformed(Place::File, message));
-    }
     soup.triangles.reserve(element.count);
     let mut corners: Vec<u32> = Vec::new();
-    for row in 0..element.count {
+    read_lists(element, values, |row, indices| {
         let place = || Place::Row("face".into(), row);
+        corners.clear();
+        for index in indices {
+            if *index < 0.0 || *index >= f64::from(u32::MAX) || index.fract() != 0.0 || index.is_nan() {
+                return Err(Found::malformed(place(), format!("{index} is not a vertex index")));
+            }
+            corners.push(*index as u32);
+        }
+        if corners.len() < 3 {
+            let message = format!("it has {} corners, it needs 3", corners.len());
+            return Err(Found::malformed(place(), message));
+        }
+        soup.push_polygon(&corners, place);
+        Ok(())
+    })
+}
+
+/// Strips of triangles, each closed by −1.
+fn read_strips(element: &Element, values: &mut Values, soup: &mut Soup) -> Result<(), Found> {
+    read_lists(element, values, |row, indices| {
+        let place = || Place::Row("tristrips".into(), row);
+        for strip in indices.split(|index| *index == -1.0) {
+            if let Some(wrong) =
+                strip.iter().find(|index| !(0.0..f64::from(u32::MAX)).contains(*index) || index.fract() != 0.0)
+            {
+                return Err(Found::malformed(place(), format!("{wrong} is not a vertex index")));
+            }
+            for (number, corners) in strip.windows(3).enumerate() {
+                let [a, b, c] = [corners[0], corners[1], corners[2]].map(|index| index as u32);
+                soup.push_polygon(&if number % 2 == 0 { [a, b, c] } else { [b, a, c] }, place);
+            }
+        }
+        Ok(())
+    })
+}
+
+/// The list of vertices in each row of an element.
+fn read_lists(
+    element: &Element,
+    values: &mut Values,
+    mut take: impl FnMut(usize, &[f64]) -> Result<(), Found>,
+) -> Result<(), Found> {
+    let is_list = |property: &Property| property.list_count.is_some() && CORNERS.contains(&property.name.as_str());
+    if element.count > 0 && !element.properties.iter().any(is_list) {
+        let has = element.properties.iter().map(|property| shortened(&property.name)).take(10).collect::<Vec<_>>();
+        let message =
+            format!("the element {} has no list \"vertex_indices\"; it has: {}", element.name, has.join(", "));
+        return Err(Found::malformed(Place::File, message));
+    }
+    let mut list: Vec<f64> = Vec::new();
+    for row in 0..element.count {
         for property in &element.properties {
             let Some(count) = property.list_count else {
                 values.next(property.scalar)?;
                 continue;
             };
             let length = values.list_length(count, property)?;
-            if !is_corners(property) {
+            if !is_list(property) {
                 for _ in 0..length {
                     values.next(property.scalar)?;
                 }
                 continue;
             }
-            corners.clear();
+            list.clear();
             for _ in 0..length {
-                let index = values.next(property.scalar)?;
-                if index < 0.0 || index >= f64::from(u32::MAX) || index.fract() != 0.0 || index.is_nan() {
-                    return Err(Found::malformed(place(), format!("{index} is not a vertex index")));
-                }
-                corners.push(index as u32);
+                list.push(values.next(property.scalar)?);
             }
-            if corners.len() < 3 {
-                let message = format!("it has {} corners, it needs 3", corners.len());
-                return Err(Found::malformed(place(), message));
-            }
-            soup.push_polygon(&corners, place);
+            take(row, &list)?;
         }
     }
     Ok(())
@@ -195,21 +321,24 @@ impl Values<'_> {
         }
     }
 
-    fn next_word(&mut self) -> Result<f64, Found> {
+    fn pass_spaces(&mut self) {
         while let Some(byte) = self.bytes.get(self.at).filter(|byte| byte.is_ascii_whitespace()) {
-            self.line += usize::from(*byte == b'\n');
+            let ends = *byte == b'\n' || (*byte == b'\r' && self.bytes.get(self.at + 1) != Some(&b'\n'));
+            self.line += usize::from(ends);
             self.at += 1;
         }
+    }
+
+    fn next_word(&mut self) -> Result<f64, Found> {
+        self.pass_spaces();
         let rest = &self.bytes[self.at..];
         let length = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
         if length == 0 {
             return Err(self.truncated("the next number".into(), 1));
         }
         let word = &rest[..length];
-        let value = std::str::from_utf8(word).ok().and_then(|word| word.parse().ok());
-        let Some(value) = value else {
-            let word = String::from_utf8_lossy(&word[..length.min(40)]);
-            return Err(Found::malformed(self.place(), format!("\"{word}\" is not a number")));
+        let Some(value) = number(word) else {
+            return Err(Found::malformed(self.place(), no_number(word)));
         };
         self.at += length;
         Ok(value)

@@ -57,7 +57,9 @@ impl Header {
         let mut encoding = None;
         let mut elements: Vec<Element> = Vec::new();
         let mut length = 0;
-        for (number, line) in bytes.split_inclusive(|byte| *byte == b'\n').enumerate() {
+        // Binary numbers follow at once, so the first line says how lines end.
+        let end = if bytes.get(3) == Some(&b'\r') && bytes.get(4) != Some(&b'\n') { b'\r' } else { b'\n' };
+        for (number, line) in bytes.split_inclusive(|byte| *byte == end).enumerate() {
             length += line.len();
             let wrong = |message: String| Found::malformed(Place::Line(number + 1), message);
             let line = String::from_utf8_lossy(&line[..line.len().min(1000)]);

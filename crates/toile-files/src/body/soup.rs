@@ -1,5 +1,6 @@
 //! Triangles as a file gives them, and the clean mesh that is made of them.
 
+use crate::body::pieces::{self, Sorted};
 use crate::error::{Fault, Found, Place};
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
@@ -62,30 +63,26 @@ impl Soup {
         }
     }
 
-    /// Scales to metres, welds equal positions, drops what has no area, turns the outside out, and gives every vertex a
-    /// normal. What had to be mended is added to the warnings.
+    /// Scales to metres, welds equal positions, drops what has no area or is no part of the body, turns the outside out, and
+    /// gives every vertex a normal. What had to be mended is added to the warnings.
     pub fn clean(self, metres_per_unit: f64, warnings: &mut Vec<String>) -> Result<Cleaned, Found> {
-        let mut warn = |count: usize, what: &str| {
-            if count > 0 {
-                warnings.push(format!("{what}: {count}"));
-            }
-        };
         let file_vertex_count = self.positions.len();
         let Welded { mut positions, mut normals, remap } = self.welded(metres_per_unit)?;
         let mut triangles: Vec<[u32; 3]> = self.triangles.iter().map(|t| t.map(|i| remap[i as usize])).collect();
 
         let before = triangles.len();
         triangles.retain(|t| has_area(&positions, *t));
-        warn(before - triangles.len(), "degenerate triangles removed");
+        warn(warnings, before - triangles.len(), "degenerate triangles removed");
         let before = triangles.len();
         remove_duplicates(&mut triangles);
-        warn(before - triangles.len(), "duplicated triangles removed");
+        warn(warnings, before - triangles.len(), "duplicated triangles removed");
         if triangles.is_empty() {
             return Err(Fault::Empty(file_vertex_count).into());
         }
+        warn(warnings, isolated_count(positions.len(), &triangles), "isolated vertices removed");
+        let Sorted { turned_count, left_out } = pieces::sort_out(&positions, &mut triangles);
+        warnings.extend(left_out);
         let renumbered = remove_isolated(&mut positions, &mut normals, &mut triangles);
-        let isolated = renumbered.iter().filter(|kept| kept.is_none()).count();
-        warn(isolated, "isolated vertices removed");
         let kept: Vec<Option<u32>> = remap.iter().map(|welded| renumbered[*welded as usize]).collect();
         let mut origins = vec![u32::MAX; positions.len()];
         for (vertex, kept) in kept.iter().enumerate().rev() {
@@ -95,18 +92,16 @@ impl Soup {
         }
 
         let edges = EdgeCounts::of(&triangles);
-        warn(edges.boundary, "boundary edges (the body has holes)");
-        warn(edges.non_manifold, "non-manifold edges (shared by more than two triangles)");
-        warn(edges.opposed, "edges whose two triangles face opposite ways");
+        warn(warnings, edges.boundary, "boundary edges (the body has holes)");
+        warn(warnings, edges.non_manifold, "non-manifold edges (shared by more than two triangles)");
+        warn(warnings, edges.opposed, "edges whose two triangles face opposite ways");
+
+        warn(warnings, turned_count, "triangles that faced inward turned over");
 
         let mut mesh = Mesh { positions, normals: Vec::new(), triangles };
-        if mesh.signed_volume() < 0.0 {
-            mesh.triangles.iter_mut().for_each(|t| t.swap(1, 2));
-            warn(mesh.triangles.len(), "triangles that faced inward turned over");
-        }
         mesh.normals = mesh.area_weighted_normals();
         let replaced = take_good_normals(&mut mesh.normals, &normals);
-        warn(replaced, "normals replaced (missing, not finite or against the winding)");
+        warn(warnings, replaced, "normals replaced (missing, not finite or against the winding)");
         Ok(Cleaned { mesh, origins, kept })
     }
 
@@ -131,6 +126,12 @@ impl Soup {
             remap.push(index);
         }
         Ok(Welded { positions, normals, remap })
+    }
+}
+
+fn warn(warnings: &mut Vec<String>, count: usize, what: &str) {
+    if count > 0 {
+        warnings.push(format!("{what}: {count}"));
     }
 }
 
@@ -162,6 +163,12 @@ fn remove_duplicates(triangles: &mut Vec<[u32; 3]>) {
         kept.sort_unstable();
         *triangles = kept.into_iter().map(|i| triangles[i as usize]).collect();
     }
+}
+
+fn isolated_count(vertex_count: usize, triangles: &[[u32; 3]]) -> usize {
+    let mut used = vec![false; vertex_count];
+    triangles.iter().flatten().for_each(|i| used[*i as usize] = true);
+    used.iter().filter(|used| !**used).count()
 }
 
 /// Removes vertices of no triangle: a stray point would enlarge the maps. Returns the new index of each vertex.

@@ -141,6 +141,9 @@ fn obj_errors_name_the_line() {
         format!("{mesh}f 1 2\n"),
         format!("{mesh}f 1 2 x\n"),
         format!("{mesh}f 1//7 2 3\n"),
+        mesh.replacen('.', ",", 1),
+        format!("v -nan(ind) 0 0\n{mesh}"),
+        mesh.replace('\n', "\r").replacen("v 0 1.6 0", "v 0 \\\r1.6 zero", 1),
     ];
     let messages: Vec<String> = cases.iter().map(|text| refusal(text, "a.obj")).collect();
     insta::assert_snapshot!(messages.join("\n"), @r#"
@@ -153,6 +156,9 @@ fn obj_errors_name_the_line() {
     a.obj, line 327: a face has 2 corners, it needs 3
     a.obj, line 327: "x" is not an index
     a.obj, line 327: normal 7 does not exist: there are 0
+    a.obj, line 1: "1,6" has a decimal comma: export it with decimal points
+    a.obj, line 1: the position (NaN, 0.0, 0.0) is not a finite number
+    a.obj, line 1: "zero" is not a number
     "#);
 }
 
@@ -246,6 +252,214 @@ fn faults_are_typed() {
     let error = parse_body(b"v 0 0 0\n", "a.obj", &BodyOptions::default()).expect_err("no triangle");
     assert!(matches!(*error.fault, Fault::Empty(1)));
     assert_eq!(error.place, Place::File);
-    let error = parse_body(b"", "a.stl", &BodyOptions::default()).expect_err("no such format");
+    let error = parse_body(b"", "a.mesh", &BodyOptions::default()).expect_err("no such format");
     assert!(matches!(*error.fault, Fault::UnknownFormat(_)));
+}
+
+/// Bytes of a text in UTF-16, with its mark.
+fn utf16(text: &str, bytes: fn(u16) -> [u8; 2]) -> Vec<u8> {
+    format!("\u{feff}{text}").encode_utf16().flat_map(bytes).collect()
+}
+
+#[test]
+fn obj_files_of_any_editor_and_exporter_are_the_same_mesh() {
+    let mesh = ellipsoid();
+    let text = obj_text(&mesh);
+    let first = text.lines().next().expect("a vertex");
+    let long = text.replace("f 1 ", "f\\\n 1 \\\n ").replace("v 0", "v \\\n0");
+    let written: [Vec<u8>; 10] = [
+        format!("\u{feff}{text}").into(),
+        utf16(&text, u16::to_le_bytes),
+        utf16(&text, u16::to_be_bytes),
+        text.replace('\n', "\r").into(),
+        format!("\u{feff}{}", text.replace('\n', "\r\n")).into(),
+        long.clone().into(),
+        long.replace('\n', "\r\n").into(),
+        format!("# made in C:\\\n{text}").into(),
+        text.replace("f ", "fo ").into(),
+        text.replace(first, &format!("{first} 1.0 0.5 0.25 # top")).into(),
+    ];
+    for bytes in written {
+        let body = read(&bytes, "a.obj");
+        assert_same(&body.mesh, &mesh);
+        assert_eq!(body.warnings, [] as [&str; 0], "{}", String::from_utf8_lossy(&bytes[..80]));
+    }
+}
+
+#[test]
+fn obj_statements_that_nothing_reads_are_told_once_by_name() {
+    let text = obj_text(&ellipsoid());
+    let known =
+        "# by hand\nmtllib a.mtl\no body\ng skin\ns off\nusemtl skin\nvt 0 0\nvp 0 0\nl 1 2\np 1\nlod 1\nbevel on\n";
+    assert_eq!(read(format!("{known}{text}"), "a.obj").warnings, [] as [&str; 0]);
+    let unknown =
+        format!("{text}cstype bezier\ncurv 0 1 1 2\nsurf 0 1 0 1 1 2\nend\nweight 1 0.5\nweight 2 0.5\ncall b.obj\n");
+    insta::assert_snapshot!(read(unknown, "a.obj").warnings.join("\n"), @r#"
+    not read: free-form curves and surfaces: export them as polygons (line 327)
+    not read: the statement "weight" (line 331)
+    not read: the statement "call" (line 333)
+    "#);
+}
+
+/// An ASCII PLY with more lines in its header, and more behind its numbers.
+fn ascii_ply(mesh: &Mesh, faces: &str) -> String {
+    let positions: String = mesh.positions.iter().map(|p| format!("{} {} {}\n", p.x, p.y, p.z)).collect();
+    format!(
+        "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n{faces}",
+        mesh.positions.len()
+    )
+    .replace("end_header\n", &format!("end_header\n{positions}"))
+}
+
+fn ply_faces(mesh: &Mesh) -> String {
+    let rows: String = mesh.triangles.iter().map(|[a, b, c]| format!("3 {a} {b} {c}\n")).collect();
+    format!("element face {}\nproperty list uchar int vertex_indices\nend_header\n{rows}", mesh.triangles.len())
+}
+
+#[test]
+fn ply_files_of_any_editor_and_exporter_are_the_same_mesh() {
+    let mesh = ellipsoid();
+    let text = ascii_ply(&mesh, &ply_faces(&mesh));
+    let header_end = |bytes: &[u8]| bytes.windows(11).position(|end| end == b"end_header\n").expect("an end") + 11;
+    let with_line_ends = |bytes: &[u8], end: &str| {
+        let (header, numbers) = bytes.split_at(header_end(bytes));
+        let header = String::from_utf8_lossy(header).replace('\n', end);
+        [header.as_bytes(), numbers].concat()
+    };
+    let little = ply_bytes(&mesh, false);
+    let big = ply_bytes(&mesh, true);
+    let strips: Vec<String> = mesh.triangles.iter().map(|[a, b, c]| format!("{a} {b} {c} -1")).collect();
+    let strips = format!(
+        "element tristrips 1\nproperty list int int vertex_indices\nend_header\n{} {}\n",
+        4 * mesh.triangles.len(),
+        strips.join(" ")
+    );
+    let written: [Vec<u8>; 9] = [
+        format!("\u{feff}{text}").into(),
+        utf16(&text, u16::to_le_bytes),
+        text.replace('\n', "\r").into(),
+        text.replace('\n', "\r\n").into(),
+        with_line_ends(&little, "\r\n"),
+        with_line_ends(&little, "\r"),
+        with_line_ends(&big, "\r"),
+        ascii_ply(&mesh, &strips).into(),
+        ascii_ply(
+            &mesh,
+            &strips.replace(" -1\n", "\n").replacen(
+                &(4 * mesh.triangles.len()).to_string(),
+                &(4 * mesh.triangles.len() - 1).to_string(),
+                1,
+            ),
+        )
+        .into(),
+    ];
+    for (number, bytes) in written.iter().enumerate() {
+        let body = read(bytes, "a.ply");
+        assert_same(&body.mesh, &mesh);
+        assert_eq!(body.warnings, [] as [&str; 0], "{number}");
+    }
+}
+
+#[test]
+fn strips_turn_every_second_triangle() {
+    let cube = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+        element tristrips 1\nproperty list int int vertex_indices\nend_header\n\
+        0 0 0\n1 0 0\n0 1 0\n0 0 1\n6 0 1 2 3 0 1\n";
+    let body = read(cube, "a.ply");
+    assert_eq!(body.mesh.triangles.len(), 4);
+    // As they are wound they fit together; that they are inside out would be told of all four.
+    assert_eq!(body.warnings, ["triangles that faced inward turned over: 4"]);
+    assert!((body.mesh.signed_volume() - 1.0 / 6.0).abs() < 1e-9);
+}
+
+#[test]
+fn ply_elements_and_properties_that_nothing_reads_are_told_once_by_name() {
+    let mesh = ellipsoid();
+    let faces = ply_faces(&mesh);
+    let known = ascii_ply(&mesh, &faces)
+        .replace(
+            "property float z\n",
+            "property float z\nproperty uchar red\nproperty float quality\nproperty float s\n",
+        )
+        .replace("end_header\n", "element edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n");
+    let rows = |text: &str| -> String {
+        let (header, numbers) = text.split_once("end_header\n").expect("an end");
+        let numbers = numbers.lines().enumerate().map(|(row, line)| match row < mesh.positions.len() {
+            true => format!("{line} 9 0.5 1\n"),
+            false => format!("{line}\n"),
+        });
+        format!("{header}end_header\n{}", numbers.collect::<String>())
+    };
+    assert_eq!(read(rows(&known) + "0 1\n", "a.ply").warnings, [] as [&str; 0]);
+    let unknown = known.replace("float quality", "float opacity").replace("float s\n", "float weight\n");
+    let unknown = unknown.replace("element edge 1", "element cells 1");
+    insta::assert_snapshot!(read(rows(&unknown) + "0 1\nmore\n", "a.ply").warnings.join("\n"), @r#"
+    not read: the properties "opacity", "weight" of vertex
+    not read: the element "cells"
+    not read: what follows the last element (line 343)
+    "#);
+    let groups: String = (0..12).map(|group| format!("property float group{group}\n")).collect();
+    let header = ascii_ply(&mesh, &faces).replace("property float z\n", &format!("property float z\n{groups}"));
+    let (header, numbers) = header.split_once("end_header\n").expect("an end");
+    let numbers = numbers.lines().enumerate().map(|(row, line)| match row < mesh.positions.len() {
+        true => format!("{line} 0 0 0 0 0 0 0 0 0 0 0 1\n"),
+        false => format!("{line}\n"),
+    });
+    let weights = format!("{header}end_header\n{}", numbers.collect::<String>());
+    let told = read(weights, "a.ply").warnings;
+    assert_eq!(
+        told,
+        [
+            "not read: the properties \"group0\", \"group1\", \"group2\", \"group3\", \"group4\", \"group5\", \"group6\", \"group7\" and 4 more of vertex"
+        ]
+    );
+    let message = refusal(ascii_ply(&mesh, &faces.replace("vertex_indices", "corners")), "a.ply");
+    assert_eq!(message, "a.ply: the element face has no list \"vertex_indices\"; it has: corners");
+}
+
+#[test]
+fn a_body_that_lies_or_has_z_up_has_its_length_for_a_height() {
+    let lying = |turn: fn(Vec3) -> Vec3, size: f32| {
+        let mut mesh = ellipsoid();
+        mesh.positions.iter_mut().for_each(|position| *position = turn(*position * size));
+        obj_text(&mesh)
+    };
+    let turns: [fn(Vec3) -> Vec3; 3] =
+        [|p| glam::vec3(p.x, -p.z, p.y), |p| glam::vec3(p.y, p.x, p.z), |p| glam::vec3(p.x, 0.45 * p.z, p.y)];
+    for turn in turns {
+        let body = read(lying(turn, 1.0), "a.obj");
+        let [low, high] = body.mesh.bounds().expect("vertices");
+        assert!(((high - low).max_element() - 1.6).abs() < 1e-5);
+        let told = refusal(lying(turn, 100.0), "a.obj");
+        assert!(
+            told.contains("is 160 m tall") && told.ends_with("give cm as its unit if it should be 1.60 m"),
+            "{told}"
+        );
+    }
+}
+
+#[test]
+fn the_floor_that_a_scan_stands_on_is_told_and_does_not_turn_it() {
+    let alone = read(obj_text(&ellipsoid()), "a.obj").mesh;
+    let with_sheet = |corners: [[f32; 3]; 4], turned: bool| {
+        let mut mesh = ellipsoid();
+        if turned {
+            mesh.triangles.iter_mut().for_each(|triangle| triangle.swap(0, 1));
+        }
+        let first = mesh.positions.len() as u32;
+        mesh.positions.extend(corners.map(Vec3::from));
+        mesh.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+        read(obj_text(&mesh), "a.obj")
+    };
+    let floor = [[-2.0, 0.0, -2.0], [2.0, 0.0, -2.0], [2.0, 0.0, 2.0], [-2.0, 0.0, 2.0]];
+    let ceiling = floor.map(|[x, _, z]| [z, 2.5, x]);
+    let wall = floor.map(|[x, _, z]| [x, z + 1.0, -1.0]);
+    for sheet in [floor, ceiling, wall] {
+        let body = with_sheet(sheet, false);
+        assert_eq!(body.mesh, alone);
+        assert_eq!(body.warnings, ["floor or backdrop left out: 1 piece of 2 triangles, the largest 4.00 m by 4.00 m"]);
+        let turned = with_sheet(sheet, true);
+        assert!((turned.mesh.signed_volume() - alone.signed_volume()).abs() < 1e-9);
+        assert_eq!(turned.warnings[1], "triangles that faced inward turned over: 216");
+    }
 }

@@ -25,12 +25,12 @@ fn every_broken_file_has_its_sentence() {
     names.sort();
     let messages: Vec<String> = names.iter().map(|name| message(name)).collect();
     insta::assert_snapshot!(messages.join("\n"), @r#"
-    empty_mesh.obj: the body is empty: it has 74 vertices and no triangle
+    empty_mesh.obj: the body is empty: it has 74 vertices and no triangle; export the mesh with its faces
     missing_edge.json, stitch 0: panel "back" has no edge 4: its edges are 0 to 3
     missing_panel.json, stitch 1: there is no panel "bakc"; there is: front, back
     nan_coordinate.json, panel "back": vertex 2 at (30, NaN) is not a finite number
     nan_coordinate.obj, line 32: the position (0.1, NaN, 0.2) is not a finite number
-    self_crossing.json, panel "front": the outline crosses itself: edge 1 meets edge 3 near (0.1500, 0.2000) m
+    self_crossing.json, panel "front": the outline crosses itself: edge 1 meets edge 3 near (0.1500, 0.2000) m; draw it as one loop, or split the panel there into two that are stitched
     ten_gigabytes.glb: buffer 0 needs 10000000000 bytes, but the file has only 1752 left: it is truncated or damaged
     ten_gigabytes.ply, byte 228: element vertex with 833333334 rows needs 10000000008 bytes, but the file has only 36 left: it is truncated or damaged
     truncated.glb, byte 0: the GLB file by its header needs 2320 bytes, but the file has only 1546 left: it is truncated or damaged

@@ -229,7 +229,10 @@ fn files_that_ask_for_endless_work_end() {
         nodes.join(", ")
     );
     let error = parse_body(chain.as_bytes(), "a.gltf", &BodyOptions::default()).expect_err("no triangle");
-    assert_eq!(error.to_string(), "a.gltf: the body is empty: it has 0 vertices and no triangle");
+    assert_eq!(
+        error.to_string(),
+        "a.gltf: the body is empty: it has 0 vertices and no triangle; export the mesh with its faces"
+    );
 
     let count = 100_000;
     let corners: Vec<String> = (0..count).map(|i| format!("[{}, {}]", i % 2, i as f64 * 1e-4)).collect();

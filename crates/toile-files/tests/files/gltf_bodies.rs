@@ -220,3 +220,320 @@ fn every_cut_of_a_glb_is_refused() {
         assert!(cut.is_err(), "{length} of {} bytes", bytes.len());
     }
 }
+
+/// A GLB of a JSON, a buffer, and further chunks.
+pub fn glb(root: &Value, bytes: &[u8], pad: u8, further: &[(&[u8; 4], &[u8])]) -> Vec<u8> {
+    let mut text = root.to_string().into_bytes();
+    text.resize(text.len().next_multiple_of(4), pad);
+    let mut bin = bytes.to_vec();
+    bin.resize(bin.len().next_multiple_of(4), 0);
+    let mut chunks: Vec<(&[u8; 4], &[u8])> = vec![(b"JSON", &text), (b"BIN\0", &bin)];
+    chunks.extend(further);
+    let body: Vec<u8> =
+        chunks.iter().flat_map(|(kind, data)| [&(data.len() as u32).to_le_bytes(), *kind, *data].concat()).collect();
+    [b"glTF".as_slice(), &2u32.to_le_bytes(), &(body.len() as u32 + 12).to_le_bytes(), &body].concat()
+}
+
+/// The mesh that stands for itself, without its clip.
+fn still() -> (Value, Vec<u8>) {
+    let (mut root, bytes) = animated("LINEAR");
+    root["nodes"] = json!([{ "mesh": 0 }]);
+    root.as_object_mut().expect("an object").remove("animations");
+    (root, bytes)
+}
+
+fn read_still(root: &Value, bytes: &[u8]) -> toile_files::BodyFile {
+    parse_body(&embedded(root.clone(), bytes), "a.gltf", &BodyOptions::default()).expect("a readable body")
+}
+
+#[test]
+fn what_a_transform_mirrors_is_wound_the_other_way() {
+    let (root, bytes) = still();
+    let whole = read_still(&root, &bytes).mesh;
+    let nodes = [
+        json!([{ "mesh": 0, "scale": [-1.0, 1.0, 1.0] }]),
+        json!([{ "mesh": 0, "scale": [1.0, 1.0, -2.0] }]),
+        json!([{ "mesh": 0, "matrix": [0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0] }]),
+        json!([{ "children": [1], "scale": [1.0, -1.0, 1.0] }, { "mesh": 0, "rotation": [0.0, 0.6, 0.0, 0.8] }]),
+        json!([{ "children": [1], "scale": [-1.0, 1.0, 1.0] }, { "mesh": 0, "scale": [-1.0, 1.0, 1.0] }]),
+        json!([{ "mesh": 0, "scale": [-1.0, -1.0, -1.0] }]),
+    ];
+    for nodes in nodes {
+        let mut root = root.clone();
+        root["nodes"] = nodes.clone();
+        let body = read_still(&root, &bytes);
+        // Had they been wound as they stand, it would be told that they were turned.
+        assert_eq!(body.warnings, [] as [&str; 0], "{nodes}");
+        assert!(body.mesh.signed_volume() > 0.0 && body.mesh.triangles.len() == whole.triangles.len());
+    }
+}
+
+#[test]
+fn normals_of_what_is_mirrored_stay_outside_at_rest_and_in_motion() {
+    let (mut root, mut bytes) = animated("LINEAR");
+    let mesh = ellipsoid();
+    let tilted = mesh.normals.iter().map(|normal| (*normal + glam::vec3(0.05, 0.1, 0.0)).normalize());
+    let tilted: Vec<glam::Vec3> = tilted.collect();
+    let offset = bytes.len();
+    bytes.extend(tilted.iter().flat_map(|normal| normal.to_array()).flat_map(f32::to_le_bytes));
+    let views = root["bufferViews"].as_array_mut().expect("views");
+    views.push(json!({ "buffer": 0, "byteOffset": offset, "byteLength": bytes.len() - offset }));
+    root["buffers"][0]["byteLength"] = bytes.len().into();
+    let accessors = root["accessors"].as_array_mut().expect("accessors");
+    accessors.push(json!({ "bufferView": 5, "componentType": 5126, "count": tilted.len(), "type": "VEC3" }));
+    root["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 5.into();
+    for scale in [[1.0, 1.0, 1.0], [-1.0, 1.0, 1.0], [1.0, 1.0, -1.0], [-1.0, -1.0, -1.0]] {
+        root["nodes"][0]["scale"] = json!(scale);
+        let mirror = glam::Vec3::from(scale);
+        let text = embedded(root.clone(), &bytes);
+        let body = parse_body(&text, "a.gltf", &BodyOptions::default()).expect("a readable body");
+        assert_eq!(body.warnings, [] as [&str; 0], "{scale:?}");
+        for (normal, tilted) in body.mesh.normals.iter().zip(&tilted) {
+            assert!(normal.distance(*tilted * mirror) < 1e-6, "{scale:?} {normal} {tilted}");
+        }
+        let moving = toile_files::parse_moving_body(&text, "a.gltf", &BodyOptions::default()).expect("a clip").body;
+        for time in [0.0, 2.0] {
+            let options = BodyOptions { clip: Some("move".into()), time, ..BodyOptions::default() };
+            let rest = parse_body(&text, "a.gltf", &options).expect("a readable body").mesh;
+            for (a, b) in moving.at(time).normals.iter().zip(&rest.normals) {
+                assert!(a.distance(*b) < 1e-5, "{scale:?} {time} {a} {b}");
+            }
+        }
+    }
+}
+
+#[test]
+fn half_a_body_may_be_the_mirror_of_the_other_half() {
+    let (mut root, bytes) = still();
+    // Two bodies side by side, one of them mirrored in its own joint.
+    root["nodes"] = json!([
+        { "mesh": 0, "translation": [0.5, 0.0, 0.0] },
+        { "mesh": 0, "translation": [-0.5, 0.0, 0.0], "scale": [-1.0, 1.0, 1.0] }]);
+    root["scenes"][0]["nodes"] = json!([0, 1]);
+    let body = read_still(&root, &bytes);
+    assert_eq!(body.warnings, [] as [&str; 0]);
+    assert!((body.mesh.signed_volume() - 2.0 * ellipsoid().signed_volume()).abs() < 1e-6);
+}
+
+#[test]
+fn extensions_that_do_not_touch_the_shape_are_passed_over() {
+    let (root, bytes) = still();
+    let whole = read_still(&root, &bytes).mesh;
+    for name in ["KHR_materials_unlit", "KHR_texture_basisu", "KHR_xmp_json_ld", "EXT_texture_webp", "VRMC_vrm"] {
+        let mut root = root.clone();
+        root["extensionsUsed"] = json!([name]);
+        root["extensionsRequired"] = json!([name]);
+        root["extensions"] = json!({ name: { "lights": [{}] } });
+        root["materials"] =
+            json!([{ "extensions": { name: {} }, "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } }]);
+        // Of a texture that is compressed no image is given in the way of the format itself.
+        root["textures"] = json!([{ "extensions": { name: { "source": 0 } } }]);
+        root["images"] = json!([{ "uri": "a.ktx2" }]);
+        root["meshes"][0]["primitives"][0]["material"] = 0.into();
+        root["meshes"][0]["primitives"][0]["extensions"] = json!({ name: { "mappings": [] } });
+        let body = read_still(&root, &bytes);
+        assert_eq!((body.mesh, body.warnings), (whole.clone(), Vec::new()), "{name}");
+    }
+}
+
+#[test]
+fn extensions_that_touch_the_shape_are_refused_by_name_with_what_to_do() {
+    let (root, bytes) = still();
+    let refusal = |change: &dyn Fn(&mut Value)| {
+        let mut root = root.clone();
+        change(&mut root);
+        parse_body(&embedded(root, &bytes), "a.gltf", &BodyOptions::default()).expect_err("a refusal").to_string()
+    };
+    let required = |name: &'static str| move |root: &mut Value| root["extensionsRequired"] = json!([name]);
+    let messages = [
+        refusal(&required("KHR_gaussian_splatting")),
+        refusal(&required("KHR_accessor_float64")),
+        refusal(&required("ACME_shape")),
+        // Numbers that no codec wrote.
+        refusal(&|root| {
+            root["meshes"][0]["primitives"][0]["extensions"] =
+                json!({ "KHR_draco_mesh_compression": { "bufferView": 0, "attributes": { "POSITION": 0 } } });
+            root["accessors"][0].as_object_mut().expect("an object").remove("bufferView");
+        }),
+        refusal(&|root| {
+            root["bufferViews"][0]["extensions"] = json!({ "EXT_meshopt_compression": { "buffer": 0, "byteLength": 1320,
+                "byteStride": 12, "count": 110, "mode": "ATTRIBUTES" } });
+        }),
+        refusal(&|root| {
+            root["bufferViews"][0]["extensions"] =
+                json!({ "EXT_meshopt_compression": { "buffer": 7, "byteLength": 1320 } });
+        }),
+        refusal(&|root| root["nodes"][0]["extensions"] = json!({ "EXT_mesh_gpu_instancing": { "attributes": {} } })),
+        refusal(&|root| root["asset"]["version"] = "1.0".into()),
+        refusal(&|root| {
+            root["buffers"]
+                .as_array_mut()
+                .expect("buffers")
+                .push(json!({ "byteLength": 1, "uri": "https://a.b/c.bin" }))
+        }),
+    ];
+    insta::assert_snapshot!(messages.join("\n"), @r#"
+    a.gltf: the file needs the extension KHR_gaussian_splatting, which is not read: make a mesh of the splats
+    a.gltf: the file needs the extension KHR_accessor_float64, which is not read: export numbers as 32-bit floats
+    a.gltf: the file needs the extension ACME_shape, which is not read: export it without it
+    a.gltf, key "meshes[0].primitives[0]": what KHR_draco_mesh_compression compressed cannot be decoded (General error: Invalid magic): export it without compression
+    a.gltf, key "bufferViews[0]": what EXT_meshopt_compression compressed cannot be decoded (invalid encoded stream): export it without compression
+    a.gltf, key "bufferViews[0]": what EXT_meshopt_compression compressed cannot be decoded (its bytes are not in the file): export it without compression
+    a.gltf: nodes[0] needs the extension EXT_mesh_gpu_instancing, which is not read: make the instances real before the export
+    a.gltf, key "asset.version": it is glTF 1.0: export it as glTF 2.0
+    a.gltf: buffer 1 lies on the web at "https://a.b/c.bin": download it beside the file, or export a GLB
+    "#);
+}
+
+#[test]
+fn a_file_that_has_its_numbers_beside_the_compressed_ones_is_read() {
+    let (mut root, bytes) = still();
+    let whole = read_still(&root, &bytes).mesh;
+    root["extensionsUsed"] = json!(["KHR_draco_mesh_compression"]);
+    root["meshes"][0]["primitives"][0]["extensions"] = json!({ "KHR_draco_mesh_compression": { "bufferView": 0 } });
+    let body = read_still(&root, &bytes);
+    assert_eq!((body.mesh, body.warnings), (whole, Vec::new()));
+}
+
+#[test]
+fn quantized_positions_of_every_type_are_read() {
+    let whole = ellipsoid();
+    // Of each axis the part of its whole range [0, 1] or [−1, 1], in numbers of up to so many.
+    for (component, most, is_signed, normalized) in [
+        (5121, 255.0, false, true),
+        (5120, 127.0, true, true),
+        (5123, 65_535.0, false, true),
+        (5122, 32_767.0, true, true),
+        (5123, 65_535.0, false, false),
+        (5122, 32_767.0, true, false),
+    ] {
+        let (mut root, mut bytes) = still();
+        let wide = if matches!(component, 5122 | 5123) { 2 } else { 1 };
+        let offset = bytes.len();
+        for position in &whole.positions {
+            let part = (*position - glam::vec3(0.0, 0.8, 0.0)) / glam::vec3(0.25, 0.8, 0.2);
+            for value in part.to_array() {
+                let value = if is_signed { value * most } else { 0.5 * (value + 1.0) * most };
+                bytes.extend(&(value.round() as i32).to_le_bytes()[..wide]);
+            }
+            bytes.resize(bytes.len().next_multiple_of(4), 0);
+        }
+        root["bufferViews"][0] =
+            json!({ "buffer": 0, "byteOffset": offset, "byteLength": bytes.len() - offset, "byteStride": 4 * wide });
+        root["buffers"][0]["byteLength"] = bytes.len().into();
+        root["accessors"][0] = json!({ "bufferView": 0, "componentType": component, "normalized": normalized,
+            "count": whole.positions.len(), "type": "VEC3" });
+        let unit = if normalized { 1.0 } else { most };
+        let (low, size) =
+            if is_signed { ([0.0, 0.8, 0.0], [0.25, 0.8, 0.2]) } else { ([-0.25, 0.0, -0.2], [0.5, 1.6, 0.4]) };
+        root["nodes"][0]["translation"] = json!(low);
+        root["nodes"][0]["scale"] = json!(size.map(|side: f32| side / unit));
+        root["extensionsUsed"] = json!(["KHR_mesh_quantization"]);
+        root["extensionsRequired"] = json!(["KHR_mesh_quantization"]);
+        let body = read_still(&root, &bytes);
+        assert_eq!(body.warnings, [] as [&str; 0], "{component}");
+        assert_eq!(body.mesh.positions.len(), whole.positions.len());
+        let step = 1.7 / most;
+        for (a, b) in body.mesh.positions.iter().zip(&whole.positions) {
+            assert!(a.distance(*b) < step, "{component} {a} {b}");
+        }
+    }
+}
+
+#[test]
+fn files_that_validators_let_pass_and_exporters_write_are_read() {
+    let (root, bytes) = still();
+    let whole = read_still(&root, &bytes).mesh;
+    let read = |file: &[u8], name: &str| {
+        let body = parse_body(file, name, &BodyOptions::default()).expect("a readable body");
+        assert_eq!(body.mesh, whole);
+        body.warnings
+    };
+    for pad in [b' ', 0] {
+        assert_eq!(read(&glb(&root, &bytes, pad, &[]), "a.glb"), [] as [&str; 0]);
+    }
+    let text = embedded(root.clone(), &bytes);
+    assert_eq!(read(&[b"\xef\xbb\xbf", text.as_slice()].concat(), "a.gltf"), [] as [&str; 0]);
+    // No bounds, no scene, an accessor of zeros that moves nothing, a mesh without positions, points beside triangles.
+    let mut bare = root.clone();
+    bare["accessors"][0].as_object_mut().expect("an object").retain(|key, _| key != "min" && key != "max");
+    bare["scenes"] = json!([]);
+    bare.as_object_mut().expect("an object").remove("scene");
+    let zeros = bare["accessors"].as_array().expect("accessors").len();
+    let zero = json!({ "componentType": 5126, "count": whole.positions.len(), "type": "VEC3" });
+    bare["accessors"].as_array_mut().expect("accessors").push(zero);
+    bare["meshes"][0]["primitives"][0]["targets"] = json!([{ "POSITION": zeros }]);
+    bare["meshes"][0]["weights"] = json!([1.0]);
+    bare["meshes"][0]["primitives"].as_array_mut().expect("primitives").extend([
+        json!({ "attributes": { "COLOR_0": 0 } }),
+        json!({ "attributes": { "POSITION": 0 }, "mode": 0 }),
+        json!({ "attributes": { "POSITION": 0, "_LABEL": 0 }, "mode": 1 }),
+    ]);
+    assert_eq!(read(&embedded(bare, &bytes), "a.gltf"), [] as [&str; 0]);
+}
+
+#[test]
+fn what_nothing_reads_of_a_gltf_is_told_once_by_name() {
+    let (mut root, bytes) = still();
+    root["nodes"] = json!([{ "mesh": 0, "weight": 3 }, { "mesh": 0, "weight": 3, "translation": [9.0, 0.0, 0.0] },
+        { "children": [3], "extensions": { "KHR_node_visibility": { "visible": false }, "ACME_hat": {} } },
+        { "mesh": 0, "translation": [2.0, 0.0, 0.0] }]);
+    root["scenes"] = json!([{ "nodes": [0, 2] }, { "nodes": [1] }]);
+    root["extensionsUsed"] = json!(["ACME_hat", "ACME_shoe", "KHR_node_visibility"]);
+    root["garment"] = json!({});
+    root["meshes"][0]["primitives"][0]["attributes"]["VELOCITY"] = 0.into();
+    let body = parse_body(&glb(&root, &bytes, b' ', &[(b"ACME", b"1234")]), "a.glb", &BodyOptions::default());
+    let body = body.expect("a readable body");
+    assert_eq!(body.mesh.triangles.len(), ellipsoid().triangles.len());
+    insta::assert_snapshot!(body.warnings.join("\n"), @r#"
+    not read: a chunk of the type "ACME" (byte 5132)
+    not read: the extension ACME_hat
+    not read: the extension ACME_shoe
+    not read: what KHR_node_visibility hides (node 2)
+    not read: the key "garment" of a file
+    not read: the attribute "VELOCITY" (key "meshes[0].primitives[0]")
+    not read: the key "weight" of a node (key "nodes[0]")
+    not read: scenes beside the one that is shown (key "scenes[1]")
+    "#);
+}
+
+#[test]
+fn what_pointers_move_is_moved() {
+    let (mut root, bytes) = animated("LINEAR");
+    let options = BodyOptions { clip: Some("move".into()), time: 2.0, ..BodyOptions::default() };
+    let expected = parse_body(&embedded(root.clone(), &bytes), "a.gltf", &options).expect("a readable body");
+    let pointer =
+        |pointer: &str| json!({ "path": "pointer", "extensions": { "KHR_animation_pointer": { "pointer": pointer } } });
+    root["animations"][0]["channels"][0]["target"] = pointer("/nodes/1/translation");
+    root["animations"][0]["channels"][1]["target"] = pointer("/nodes/1/rotation");
+    root["extensionsRequired"] = json!(["KHR_animation_pointer"]);
+    let body = parse_body(&embedded(root.clone(), &bytes), "a.gltf", &options).expect("a readable body");
+    assert_eq!((body.mesh, body.warnings), (expected.mesh.clone(), Vec::new()));
+    let channels = root["animations"][0]["channels"].as_array_mut().expect("channels");
+    channels.push(json!({ "sampler": 0, "target": pointer("/materials/0/emissiveFactor") }));
+    channels.push(json!({ "sampler": 0, "target": pointer("/meshes/0/weights") }));
+    channels.push(json!({ "sampler": 0, "target": { "path": "translation" } }));
+    let body = parse_body(&embedded(root, &bytes), "a.gltf", &options).expect("a readable body");
+    assert_eq!(body.mesh, expected.mesh);
+    insta::assert_snapshot!(body.warnings.join("\n"), @r#"
+    not read: the motion of "/meshes/0/weights" (key "animations[0].channels[3]")
+    not read: a channel that names no node (key "animations[0].channels[4]")
+    "#);
+}
+
+#[test]
+fn a_json_of_more_than_a_body_has_is_refused_at_once() {
+    let (mut root, bytes) = still();
+    let read = |root: &Value| parse_body(&embedded(root.clone(), &bytes), "a.gltf", &BodyOptions::default());
+    root["nodes"].as_array_mut().expect("nodes").extend(vec![json!({}); 100_000]);
+    read(&root).expect("a readable body");
+    root["nodes"].as_array_mut().expect("nodes").extend(vec![json!({}); 100_000]);
+    let refused = |root: &Value, what: &str| {
+        let error = read(root).expect_err("too much").to_string();
+        let known = error.starts_with("a.gltf: a glTF JSON of more than ");
+        assert!(known && error.ends_with(&format!(" {what} cannot be read")), "{error}");
+    };
+    refused(&root, "objects");
+    root["nodes"] = json!([{ "mesh": 0, "weights": vec![0; 1_500_000] }]);
+    refused(&root, "values");
+}

@@ -2,6 +2,8 @@
 
 mod bodies;
 mod broken;
+mod compressed;
+mod fuzz;
 mod garbage;
 mod garments;
 mod gltf_bodies;

@@ -3,7 +3,7 @@
 use crate::support::{fixture, real_data};
 use std::fs;
 use std::path::Path;
-use toile_files::{BodyOptions, read_body, read_garment};
+use toile_files::{BodyOptions, read_body, read_garment, read_garment_file};
 use toile_scene::Curve;
 
 /// What the patterns of a folder hold, a line each.
@@ -112,4 +112,58 @@ fn the_dressing_pose_of_the_walk_is_the_standing_body() {
         .map(|p| walker.positions.iter().map(|q| p.distance(*q)).fold(f32::INFINITY, f32::min))
         .fold(0.0, f32::max);
     assert!(worst < 1e-4, "{worst}");
+}
+
+#[test]
+#[ignore = "its files, each with a condition of other programs, are not part of the repository"]
+fn files_that_others_wrote_are_read_or_refused_by_their_cause() {
+    let cases = real_data().join("../cases");
+    let garment = |name: &str| match read_garment_file(&cases.join(name).join("g.json")) {
+        Ok(file) => {
+            let edges: usize = file.garment.panels.iter().map(|panel| panel.edges.len()).sum();
+            let (panels, seams) = (file.garment.panels.len(), file.garment.seams.len());
+            format!("{name}: {panels} panels, {edges} edges, {seams} seams {:?}", file.warnings)
+        }
+        Err(error) => error.to_string().split_once("cases/").expect("its path").1.to_owned(),
+    };
+    let body = |name: &str| match read_body(&cases.join(name), &BodyOptions::default()) {
+        Ok(body) => {
+            let (triangles, volume) = (body.mesh.triangles.len(), body.mesh.signed_volume());
+            format!("{name}: {triangles} triangles, {:.1} l {:?}", 1e3 * volume, body.warnings)
+        }
+        Err(error) => error.to_string().split_once("cases/").expect("its path").1.to_owned(),
+    };
+    let garments = ["absolute_metres", "absolute_curv", "no_units", "bom_json", "diamond_keyhole", "wrong_winding"];
+    let bodies = [
+        "scan.ply",
+        "floor_scan/b.obj",
+        "neg_scale_glb/b.glb",
+        "quantized_glb/b.glb",
+        "unlit_glb/b.glb",
+        "draco_glb/b.glb",
+        "obj_bom_spare/b.obj",
+        "obj_backslash/b.obj",
+        "zup_ply/scan.ply",
+        "facing_x/scan.ply",
+    ];
+    let told: Vec<String> =
+        garments.iter().map(|name| garment(name)).chain(bodies.iter().map(|name| body(name))).collect();
+    insta::assert_snapshot!(told.join("\n"), @r#"
+    absolute_metres: 4 panels, 44 edges, 20 seams []
+    absolute_curv: 4 panels, 44 edges, 20 seams []
+    no_units: 2 panels, 8 edges, 2 seams ["it has no key \"properties.units_in_meter\": read as centimetres"]
+    bom_json: 4 panels, 44 edges, 18 seams []
+    diamond_keyhole: 2 panels, 15 edges, 5 seams []
+    wrong_winding: 2 panels, 8 edges, 2 seams []
+    scan.ply: 4009 triangles, 46.5 l ["duplicated triangles removed: 3", "boundary edges (the body has holes): 6", "non-manifold edges (shared by more than two triangles): 3"]
+    floor_scan/b.obj: 4009 triangles, 46.5 l ["duplicated triangles removed: 3", "floor or backdrop left out: 1 piece of 800 triangles, the largest 2.00 m by 2.00 m", "boundary edges (the body has holes): 6", "non-manifold edges (shared by more than two triangles): 3"]
+    neg_scale_glb/b.glb: 5128 triangles, 46.7 l ["boundary edges (the body has holes): 140", "triangles that faced inward turned over: 2"]
+    quantized_glb/b.glb: 4009 triangles, 46.5 l ["duplicated triangles removed: 3", "boundary edges (the body has holes): 6", "non-manifold edges (shared by more than two triangles): 3"]
+    unlit_glb/b.glb: 4009 triangles, 46.5 l ["duplicated triangles removed: 3", "boundary edges (the body has holes): 6", "non-manifold edges (shared by more than two triangles): 3"]
+    draco_glb/b.glb, key "meshes[0].primitives[0]": what KHR_draco_mesh_compression compressed cannot be decoded (General error: Invalid magic): export it without compression
+    obj_bom_spare/b.obj: 4009 triangles, 46.5 l ["duplicated triangles removed: 3", "isolated vertices removed: 1", "boundary edges (the body has holes): 6", "non-manifold edges (shared by more than two triangles): 3"]
+    obj_backslash/b.obj: 4009 triangles, 46.5 l ["duplicated triangles removed: 3", "boundary edges (the body has holes): 6", "non-manifold edges (shared by more than two triangles): 3"]
+    zup_ply/scan.ply: 4009 triangles, 46.5 l ["duplicated triangles removed: 3", "boundary edges (the body has holes): 6", "non-manifold edges (shared by more than two triangles): 3"]
+    facing_x/scan.ply: 4009 triangles, 46.5 l ["duplicated triangles removed: 3", "boundary edges (the body has holes): 6", "non-manifold edges (shared by more than two triangles): 3"]
+    "#);
 }

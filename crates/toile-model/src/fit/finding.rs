@@ -31,6 +31,13 @@ pub enum Finding {
         /// Name of the panel.
         panel: String,
     },
+    /// A panel was drawn with its outside in, and was turned over.
+    TurnedPanel {
+        /// Name of the garment.
+        garment: String,
+        /// Name of the panel.
+        panel: String,
+    },
     /// A panel stands far from the body.
     Far {
         /// Name of the garment.
@@ -99,10 +106,14 @@ pub struct InBody {
 }
 
 impl Finding {
-    /// Whether it may still go wrong: nothing was mended.
+    /// Whether it may still go wrong, or the file is wrong whatever was mended.
     pub fn is_warning(&self) -> bool {
         match self {
-            Self::Size { .. } | Self::Loose { .. } | Self::Far { .. } | Self::LeftPanel { .. } => true,
+            Self::Size { .. }
+            | Self::Loose { .. }
+            | Self::TurnedPanel { .. }
+            | Self::Far { .. }
+            | Self::LeftPanel { .. } => true,
             Self::TurnedUpright { .. }
             | Self::TurnedAbout { .. }
             | Self::MovedGarment { .. }
@@ -135,6 +146,9 @@ impl fmt::Display for Finding {
             }
             Self::Loose { garment, panel } => {
                 write!(f, "panel {panel} of garment {garment} is in no seam: nothing will hold it")
+            }
+            Self::TurnedPanel { garment, panel } => {
+                write!(f, "panel {panel} of garment {garment} is drawn with its outside in: it was turned over")
             }
             Self::Far { garment, panel, distance } => {
                 write!(f, "panel {panel} of garment {garment} stands {distance:.2} m from the body")

@@ -80,6 +80,11 @@ impl Laid {
         self.places(panel).filter(|place| inside.holds(*place)).collect()
     }
 
+    /// Area of the panel [m²].
+    pub(crate) fn area_of_all(&self) -> f64 {
+        Self::area(self.points.len())
+    }
+
     /// Area that so many of its points stand for [m²].
     pub(crate) fn area(count: usize) -> f64 {
         count as f64 * LATTICE * LATTICE

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::path::{Path, PathBuf};
 use toile_files::{BodyOptions, read_garment, read_moving_body};
 use toile_model::{Axis, Finding, Fit, FitError, FitOptions};
-use toile_scene::{Body, Cloth, Fabric, Garment, Mesh, MovingMesh, Scene, Settings};
+use toile_scene::{Body, Cloth, Curve, Edge, Fabric, Garment, Mesh, MovingMesh, Scene, Settings};
 
 fn fixture(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures").join(path)
@@ -232,4 +232,112 @@ fn a_panel_in_no_seam_is_named() {
     let fit = fit(Body::Mesh(woman("apose_to_walk").mesh), &[skirt]).expect("the rest fits");
     assert_eq!(told(&fit), "panel pocket of garment skirt is in no seam: nothing will hold it\n");
     assert!(fit.findings[0].is_warning());
+}
+
+/// The garment with panels drawn the other way around, in the same place.
+fn drawn_outside_in(garment: &Garment, panels: &[usize]) -> Garment {
+    let mut turned = garment.clone();
+    for number in panels {
+        let panel = &garment.panels[*number];
+        let count = panel.edges.len();
+        let edges = (0..count).rev().map(|edge| Edge {
+            start: panel.edges[(edge + 1) % count].start,
+            curve: match panel.edges[edge].curve {
+                Curve::Cubic { controls: [a, b] } => Curve::Cubic { controls: [b, a] },
+                Curve::Arc { radius, large, right } => Curve::Arc { radius, large, right: !right },
+                curve => curve,
+            },
+            label: panel.edges[edge].label.clone(),
+        });
+        turned.panels[*number].edges = edges.collect();
+        for side in turned.seams.iter_mut().flat_map(|seam| &mut seam.sides).filter(|side| side.panel == *number) {
+            side.edge = count - 1 - side.edge;
+        }
+    }
+    turned
+}
+
+#[test]
+fn panels_that_are_drawn_outside_in_are_turned_over_and_named() {
+    let body = woman("apose_to_walk").mesh;
+    for (name, panels) in [
+        ("skirt", [0].as_slice()),
+        ("skirt", &[1, 2]),
+        ("circle_skirt", &[1]),
+        ("circle_skirt", &[0, 1]),
+        ("trousers", &[3]),
+        ("shirt_sleeves", &[4]),
+        ("shirt_sleeves", &[0, 5, 6]),
+        ("dress", &[0, 1, 2, 3, 4, 5, 6, 7]),
+    ] {
+        let drawn = garment(name);
+        let turned = drawn_outside_in(&drawn, panels);
+        assert_ne!(turned, drawn);
+        let fit = fit(Body::Mesh(body.clone()), &[turned]).expect("it fits");
+        let mut told: Vec<String> = fit.findings.iter().map(|finding| finding.to_string()).collect();
+        told.sort();
+        let sentence = |panel: &usize| {
+            let panel = &drawn.panels[*panel].name;
+            format!("panel {panel} of garment {name} is drawn with its outside in: it was turned over")
+        };
+        let mut expected: Vec<String> = panels.iter().map(sentence).collect();
+        expected.sort();
+        assert_eq!(told, expected, "{name}");
+        assert!(fit.findings.iter().all(Finding::is_warning));
+        assert_eq!(*garment_of(&fit), drawn, "{name}");
+    }
+}
+
+#[test]
+fn a_seam_of_outside_to_inside_is_no_fault_of_a_panel() {
+    let body = woman("apose_to_walk").mesh;
+    let mut skirt = drawn_outside_in(&garment("circle_skirt"), &[1]);
+    skirt.seams.iter_mut().for_each(|seam| seam.right_wrong = true);
+    let fit = fit(Body::Mesh(body), std::slice::from_ref(&skirt)).expect("it fits");
+    assert_eq!(fit.findings, []);
+    assert_eq!(*garment_of(&fit), skirt);
+}
+
+#[test]
+fn a_ribbon_with_half_a_turn_is_left_as_it_is_drawn() {
+    let body = woman("apose_to_walk").mesh;
+    let mut skirt = garment("circle_skirt");
+    // One of two seams joins the outside to the inside, so the cloth has one side alone.
+    skirt.seams[0].right_wrong = true;
+    let fit = fit(Body::Mesh(body), std::slice::from_ref(&skirt)).expect("it fits");
+    assert_eq!(fit.findings, []);
+    assert_eq!(*garment_of(&fit), skirt);
+}
+
+#[test]
+#[ignore = "its patterns and bodies are not part of the repository"]
+fn patterns_of_others_are_drawn_right_and_one_is_not() {
+    let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared");
+    let body = woman("apose_to_walk").mesh;
+    let mut told = String::new();
+    let patterns = std::fs::read_dir(shared.join("data/patterns/garmentcode")).expect("the patterns");
+    for path in patterns
+        .map(|entry| entry.expect("an entry").path())
+        .filter(|path| path.extension().is_some_and(|e| e == "json"))
+    {
+        let fit = fit(Body::Mesh(body.clone()), &[read_garment(&path).expect("a pattern")]).expect("it fits");
+        told.extend(
+            fit.findings.iter().map(|finding| format!("{finding}\n")).filter(|told| told.contains("turned over")),
+        );
+    }
+    assert_eq!(told, "");
+    let skirt = read_garment(&shared.join("cases/absolute_curv/g.json")).expect("a pattern");
+    for case in ["zup_ply", "facing_x"] {
+        let scan = shared.join(format!("cases/{case}/scan.ply"));
+        let body = toile_files::read_body(&scan, &BodyOptions::default()).expect("a body").mesh;
+        told += &self::told(&fit(Body::Mesh(body), std::slice::from_ref(&skirt)).expect("it fits"));
+    }
+    let wrong = read_garment(&shared.join("cases/wrong_winding/g.json")).expect("a pattern");
+    let scan = toile_files::read_body(&shared.join("cases/scan.ply"), &BodyOptions::default()).expect("a body").mesh;
+    told += &self::told(&fit(Body::Mesh(scan), &[wrong]).expect("it fits"));
+    insta::assert_snapshot!(told, @"
+    turned the body by -90 degrees about x: +z was up
+    turned the body by -90 degrees about y: it faced +x
+    panel back of garment g is drawn with its outside in: it was turned over
+    ");
 }

@@ -130,3 +130,28 @@ fn a_garment_gives_the_same_model_twice() {
     assert_eq!(one, other);
     assert_eq!(one.sewn(), other.sewn());
 }
+
+/// A tube of two panels whose front has a dart inside of it, cut from the hem as a keyhole.
+const KEYHOLE: &str = r#"{"pattern": {"panels": {
+    "front": {"translation": [0, 0, 20], "rotation": [0, 0, 0],
+        "vertices": [[-25, 0], [0, 0], [0, 12], [-3, 22], [0, 32], [3, 22], [0, 12], [0, 0], [25, 0], [25, 45], [-25, 45]],
+        "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 4]},
+            {"endpoints": [4, 5]}, {"endpoints": [5, 6]}, {"endpoints": [6, 7]}, {"endpoints": [7, 8]},
+            {"endpoints": [8, 9]}, {"endpoints": [9, 10]}, {"endpoints": [10, 0]}]},
+    "back": {"translation": [0, 0, -20], "rotation": [0, 0, 0],
+        "vertices": [[-25, 0], [-25, 45], [25, 45], [25, 0]],
+        "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}]}},
+    "stitches": [[{"panel": "front", "edge": 8}, {"panel": "back", "edge": 2}],
+        [{"panel": "front", "edge": 10}, {"panel": "back", "edge": 0}],
+        [{"panel": "front", "edge": 1}, {"panel": "front", "edge": 6}],
+        [{"panel": "front", "edge": 2}, {"panel": "front", "edge": 5}],
+        [{"panel": "front", "edge": 3}, {"panel": "front", "edge": 4}]]},
+    "properties": {"units_in_meter": 100}}"#;
+
+#[test]
+fn a_dart_inside_of_a_panel_is_sewn_shut() {
+    let garment = toile_files::parse_garment(KEYHOLE, "keyhole").unwrap();
+    // Waist and hem; the cut and the dart are closed.
+    let table = sewn_table([(garment, "keyhole", 2)], &[0.03, 0.02, 0.013, 0.008]);
+    assert_eq!(table.lines().count(), 4);
+}
