@@ -16,7 +16,8 @@ fn pages() -> Vec<PathBuf> {
         for entry in fs::read_dir(&folder).expect("a folder") {
             let path = entry.expect("an entry").path();
             let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            if path.is_symlink() || name.starts_with('.') || ["target", "out"].contains(&name.as_str()) {
+            if path.is_symlink() || name.starts_with('.') || ["target", "out", "node_modules"].contains(&name.as_str())
+            {
                 continue;
             }
             if path.is_dir() {
