@@ -153,8 +153,12 @@ fn a_polish_repeats_the_sweep_behind_grants_and_a_plan_without_has_neither() {
         let (guards, others): (Vec<Pass>, Vec<Pass>) = plain.0.step.iter().cloned().partition(is_guard);
         assert!(!guards.is_empty(), "{name}");
         let sweep: Vec<_> = others[..others.len() - 1].iter().skip_while(|pass| !is_limit(pass)).cloned().collect();
+        // Points look at the shapes in the first sweep alone.
+        let (looks, later): (Vec<Pass>, Vec<Pass>) =
+            sweep.into_iter().partition(|pass| pass.kernel == Kernel::SampleShapes);
+        assert_eq!(looks.len(), usize::from(name != "hang"), "{name}");
         let further: Vec<Pass> =
-            sweep[..sweep.len() / sweeps].iter().chain(&guards).chain([&measurement]).cloned().collect();
+            later[..later.len() / sweeps].iter().chain(&guards).chain([&measurement]).cloned().collect();
         let numbered = further.iter().zip(0..).map(|(pass, place)| Pass { grant: Some(place), ..pass.clone() });
         let granted: Vec<_> = polished.0.step.iter().filter(|pass| pass.grant.is_some()).cloned().collect();
         let three: Vec<Pass> = numbered.cycle().take(3 * further.len()).collect();

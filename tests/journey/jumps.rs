@@ -72,6 +72,10 @@ fn a_body_that_jumps_takes_its_garments_along() {
     let dressed = dressed();
     let still = walked(&dressed, 0.0, 0.0, 0.0);
     assert!(still.teleports.is_empty() && still.elongation_max < 0.12, "{} without a jump", still.elongation_max);
+    // Places at 40 m are told to 4 µm, and cloth that moves spreads that as it spreads any other nudge.
+    let nudge = 4e-6;
+    let spread = apart(&walked(&dressed, nudge, 0.0, 0.0), &still, nudge as f32, 0.0);
+    assert!(spread < 0.03, "{spread} m apart after {nudge} m");
     for (distance, angle, seconds) in [(2.0, 0.0, 0.0), (0.0, PI, 0.0), (40.0, 1.0, 1.0 / 24.0)] {
         let jumped = walked(&dressed, distance, angle, seconds);
         let [told] = jumped.teleports[..] else { panic!("one jump: {:?}", jumped.teleports) };
@@ -81,7 +85,7 @@ fn a_body_that_jumps_takes_its_garments_along() {
         let elongation = jumped.elongation_max;
         assert!(elongation < still.elongation_max + 0.02, "{elongation} after {distance} m and {angle} rad");
         let apart = apart(&jumped, &still, distance as f32, angle as f32);
-        assert!(apart < 0.03, "{apart} m apart after {distance} m and {angle} rad");
+        assert!(apart < 2.0 * spread, "{apart} m apart after {distance} m and {angle} rad");
     }
     // A short one is left to the cloth, which recovers.
     let short = walked(&dressed, 0.3, 0.0, 0.0);

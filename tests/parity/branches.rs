@@ -449,7 +449,12 @@ fn shapes(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usiz
     let [points, velocities] = before.points();
     let all = || 0..points.len();
     let kept = |i: &usize| before.after_maps && before.probes[*i].hit && same(&after.probes[*i], &before.probes[*i]);
-    let reached = |i: &usize| after.probes[*i].hit && !kept(i);
+    let answered = |i: &usize| after.probes[*i].hit && !kept(i);
+    let near = |i: usize, probe: &Probe| {
+        let approach = (velocities[i] - probe.velocity).dot(probe.normal);
+        probe.distance + approach * before.settings.dt < before.settings.contact_margin
+    };
+    let reached = |i: &usize| answered(i) && near(*i, &after.probes[*i]);
     let inside = |i: &usize| {
         before
             .shapes
@@ -460,7 +465,8 @@ fn shapes(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usiz
     see("is reached", all().filter(reached).count());
     see("is nearer than the maps", all().filter(|i| reached(i) && before.after_maps && before.probes[*i].hit).count());
     see("is farther than the maps", all().filter(|i| kept(i) && inside(i)).count());
-    see("is not reached", all().filter(|i| !after.probes[*i].hit).count());
+    see("is not reached", all().filter(|i| answered(i) && !reached(i)).count());
+    see("is no number", all().filter(|i| points[*i].is_nan() && !after.probes[*i].hit).count());
     see("is outside but comes near", all().filter(|i| reached(i) && !inside(i)).count());
     // What each shape alone would say.
     let alone: Vec<Vec<Probe>> = before
@@ -480,6 +486,11 @@ fn shapes(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usiz
             .map(|probes| probes[*i])
             .collect::<Vec<_>>()
     };
+    let passed_over = |i: &usize| {
+        let answer = &after.probes[*i];
+        alone.iter().any(|probes| probes[*i].hit && probes[*i].distance < answer.distance && !near(*i, &probes[*i]))
+    };
+    see("is reached by another than the nearest", all().filter(|i| reached(i) && passed_over(i)).count());
     let differ = |i: &usize, by: fn(&Probe) -> Vec3| equal(i).windows(2).any(|pair| by(&pair[0]) != by(&pair[1]));
     see("is as near to two shapes", all().filter(|i| reached(i) && differ(i, |probe| probe.normal)).count());
     see(

@@ -36,6 +36,7 @@ const SPARED: &[(&str, Kind, &[&str])] = &[
         Kind::Constant,
         &["const SHUT: f32 = 1e-13", "const SHUT: f32 = 2e-12"],
     ),
+    ("nothing is as far away as that", Kind::Border, &["seen.distance <= FAR"]),
     (
         "the rim of the maps is empty, so what lies beyond it is nothing too",
         Kind::Sign,
@@ -142,7 +143,6 @@ const SPARED: &[(&str, Kind, &[&str])] = &[
             "abs(next.z - column.front) < abs(",
             "column.front - start.z < start.z",
             "step.dt <= step.contact_margin",
-            "nearest.distance <= seen.distance",
             "distance_front > distance_back",
             "elongation * step.aim >=",
             "elongation >= polish.target_elongation",

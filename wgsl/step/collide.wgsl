@@ -8,7 +8,7 @@
 #import shared/particles writes positions velocities
 
 @group(0) var<storage, read> midpoints: array<Midpoint>;
-@group(0) var<storage, read> probes: array<Probe>;
+@group(0) var<storage, read_write> probes: array<Probe>;
 @group(0) var<storage, read> particle_quad_offsets: array<u32>;
 @group(0) var<storage, read> particle_quads: array<u32>;
 @group(0) var<storage, read_write> contacts: array<Contact>;
@@ -66,8 +66,9 @@ fn collide(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups
             answered = answered + change_by(gain, answered, probe);
         }
         // The way out moves the particle but gives it no velocity, so that it does not bounce off.
-        let depth = max(-probe.distance, 0.0);
-        set_position(i, position_of(i) + probe.normal * min(depth, step.push_speed * step.dt));
+        let way = min(max(-probe.distance, 0.0), step.push_speed * step.dt);
+        set_position(i, position_of(i) + probe.normal * way);
+        probes[i].distance = probe.distance + way;
     }
     set_velocity(i, answered);
 }

@@ -1,5 +1,5 @@
-// What each point sees of the analytic shapes, exactly: the nearest of them answers, where it is nearer than what the point sees in the
-// maps. The whole way of the coming move is tested, relative to the shape: a point that would enter meets it where its way does.
+// What each point sees of the analytic shapes, exactly: of those that it reaches within this step the nearest answers, where it is nearer than what
+// the point sees in the maps. Where it reaches none, the nearest answers all the same: a later sweep may change its way. The whole way of the coming move is tested, relative to the shape: a point that would enter meets it where its way does.
 #import shared/point
 #import struct/Shape
 
@@ -96,6 +96,9 @@ fn look_at(shape: Shape, point: Midpoint) -> Probe {
     return plane_of(shape, from_centre, met, vec3<f32>(0.0));
 }
 
+// Farther than anything [m].
+const FAR: f32 = 1e30;
+
 // The first component that is not zero.
 fn leading(way: vec3<f32>) -> f32 {
     if way.x != 0.0 {
@@ -107,9 +110,19 @@ fn leading(way: vec3<f32>) -> f32 {
     return way.z;
 }
 
-// Which of two shapes answers: of two that are equally near the one whose normal, then whose velocity comes later by coordinates, so
-// that the order of the shapes does not matter.
-fn answers_before(one: Probe, other: Probe) -> bool {
+// Whether a point reaches what it sees within this step.
+fn is_reached(seen: Probe, velocity: vec3<f32>) -> bool {
+    let approach = dot(velocity - seen.velocity, seen.normal);
+    return seen.distance + approach * step.dt < step.contact_margin;
+}
+
+// Which of two shapes answers a point: one that it reaches, and the nearer; of two that are equally near the one whose normal, then whose velocity
+// comes later by coordinates, so that the order of the shapes does not matter.
+fn answers_before(one: Probe, other: Probe, velocity: vec3<f32>) -> bool {
+    let reached = is_reached(one, velocity);
+    if reached != is_reached(other, velocity) {
+        return reached;
+    }
     if one.distance != other.distance {
         return one.distance < other.distance;
     }
@@ -127,20 +140,19 @@ fn sample_shapes(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_work
         return;
     }
     let point = point_at(i);
-    var nearest = Probe();
+    var answer = Probe();
     for (var k = 0u; k < arrayLength(&shapes); k++) {
         let seen = look_at(shapes[k], point);
-        let approach = dot(point.velocity - seen.velocity, seen.normal);
-        let near = seen.hit > 0.0 && seen.distance + approach * step.dt < step.contact_margin;
-        if near && (!(nearest.hit > 0.0) || answers_before(seen, nearest)) {
-            nearest = seen;
+        // What is no number has no distance.
+        if seen.hit > 0.0 && seen.distance < FAR && (!(answer.hit > 0.0) || answers_before(seen, answer, point.velocity)) {
+            answer = seen;
         }
     }
     if step.after_maps == 1u {
         let seen = probes[i];
-        if !(nearest.hit > 0.0) || (seen.hit > 0.0 && !(nearest.distance < seen.distance)) {
-            nearest = seen;
+        if seen.hit > 0.0 && (!(answer.hit > 0.0) || !answers_before(answer, seen, point.velocity)) {
+            answer = seen;
         }
     }
-    probes[i] = nearest;
+    probes[i] = answer;
 }

@@ -80,21 +80,15 @@ impl Plan {
         let mut step = Vec::new();
         let mut frame = Vec::new();
         let mut sweep: Vec<Pass> = Vec::new();
-        for group in rows.chunk_by(|a, b| a.stage == b.stage) {
-            let mut group_passes: Vec<Pass> = Vec::new();
-            for rows in group.chunk_by(|a, b| is_by_level(a) == is_by_level(b)) {
-                // Rows by level take turns, the coarsest level first.
-                let levels = if is_by_level(rows[0]) { model.levels.as_slice() } else { &[Level::default()] };
-                // Small ones have a kernel of their own.
-                for level in levels.iter().rev().filter(|level| !is_by_level(rows[0]) || !level.is_small()) {
-                    group_passes.extend(rows.iter().flat_map(|row| passes(row, model, settings, level, &mut spans)));
-                }
-            }
+        for group in rows.chunk_by(|a, b| a.stage == b.stage || [a, b].iter().all(|row| is_of_sweep(row))) {
+            let group_passes = by_level(group, model, settings, &mut spans);
             match group[0].stage {
                 Stage::Step => step.extend(group_passes),
-                Stage::Sweep => {
-                    step.extend(repeated(&group_passes, settings.sweeps.max(1)));
-                    sweep = group_passes;
+                Stage::Sweep | Stage::FirstSweep => {
+                    let later: Vec<&Row> = group.iter().copied().filter(|row| row.stage == Stage::Sweep).collect();
+                    sweep = by_level(&later, model, settings, &mut spans);
+                    step.extend(group_passes);
+                    step.extend(repeated(&sweep, settings.sweeps.saturating_sub(1)));
                 }
                 Stage::AfterSweeps => {
                     step.extend(group_passes.iter().cloned());
@@ -156,6 +150,23 @@ impl Pass {
         let groups = if self.workgroup_per_item { count } else { count.div_ceil(WORKGROUP_SIZE) };
         [groups.min(WORKGROUPS_MAX), groups.div_ceil(WORKGROUPS_MAX)]
     }
+}
+
+/// The passes of some rows in their order. Rows by level take turns, the coarsest level first.
+fn by_level(rows: &[&Row], model: &Model, settings: &StepSettings, spans: &mut Vec<Span>) -> Vec<Pass> {
+    let mut result = Vec::new();
+    for rows in rows.chunk_by(|a, b| is_by_level(a) == is_by_level(b)) {
+        let levels = if is_by_level(rows[0]) { model.levels.as_slice() } else { &[Level::default()] };
+        // Small ones have a kernel of their own.
+        for level in levels.iter().rev().filter(|level| !is_by_level(rows[0]) || !level.is_small()) {
+            result.extend(rows.iter().flat_map(|row| passes(row, model, settings, level, spans)));
+        }
+    }
+    result
+}
+
+fn is_of_sweep(row: &Row) -> bool {
+    matches!(row.stage, Stage::Sweep | Stage::FirstSweep)
 }
 
 fn is_by_level(row: &Row) -> bool {

@@ -14,6 +14,8 @@ pub enum Stage {
     /// Once per sweep: consecutive rows of this stage are repeated together as often as the settings say, so that limits, bodies and
     /// seams take turns.
     Sweep,
+    /// In the first sweep of a step alone, among the rows of [`Stage::Sweep`] around it.
+    FirstSweep,
     /// Once after the sweeps of a step, and after each further sweep of a polish.
     AfterSweeps,
     /// Before each further sweep of a polish and after the last: it repeats the rows of [`Stage::Sweep`] and [`Stage::AfterSweeps`]
@@ -230,15 +232,15 @@ kernels! {
     /// Points of the quads that are tested. D §6.
     QuadMidpoints "step" "quad_midpoints" Sweep Quad Body;
     /// What points see of bodies at rest in the papers' maps. W §4.4.
-    SampleSides "step" "sample_sides" Sweep Point StillSides;
+    SampleSides "step" "sample_sides" FirstSweep Point StillSides;
     /// What points see of moving bodies in the papers' maps. W §4.3, §4.4.
-    SampleMovingSides "step" "sample_moving_sides" Sweep Point MovingSides;
+    SampleMovingSides "step" "sample_moving_sides" FirstSweep Point MovingSides;
     /// What points see of bodies at rest in the layered maps. D §8, W §7.
-    SampleLayers "step" "sample_layers" Sweep Point StillLayers;
+    SampleLayers "step" "sample_layers" FirstSweep Point StillLayers;
     /// What points see of moving bodies in the layered maps. D §8, W §4.3, §7.
-    SampleMovingLayers "step" "sample_moving_layers" Sweep Point MovingLayers;
+    SampleMovingLayers "step" "sample_moving_layers" FirstSweep Point MovingLayers;
     /// What points see of the shapes.
-    SampleShapes "step" "sample_shapes" Sweep Point Shapes;
+    SampleShapes "step" "sample_shapes" FirstSweep Point Shapes;
     /// Each particle answers its own contact and those of its quads. D §6, W eq. 15.
     Collide "step" "collide" Sweep Particle Body;
     /// Seams close slowly whatever holds them open; last of all, so that one that a tight fit holds open closes all the same.

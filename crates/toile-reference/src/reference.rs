@@ -78,6 +78,7 @@ pub struct Reference {
     contacts: Vec<Contact>,
     /// What the particles saw in the last sweep, shape [particle_count]; empty without body.
     probes: Vec<Probe>,
+    quad_probes: Vec<Probe>,
     /// What limits gave each particle in the last step [m/s], shape [particle_count].
     pulls: Vec<Vec3>,
     polish: PolishState,
@@ -92,6 +93,7 @@ impl Reference {
             particles: Particles::new(model),
             contacts: vec![Contact::default(); contact_count],
             probes: Vec::new(),
+            quad_probes: Vec::new(),
             pulls: vec![Vec3::ZERO; model.positions.len()],
             model: model.clone(),
             settings: settings.clone(),
@@ -180,13 +182,13 @@ impl Reference {
         if settings.hold_rate > 0.0 {
             step::hold_edges(particles, &model.holds, &model.held_particles, settings);
         }
-        for _ in 0..self.settings.sweeps.max(1) {
-            self.sweep(lag);
+        for index in 0..self.settings.sweeps.max(1) {
+            self.sweep((index == 0).then_some(lag));
         }
         limits::guard(&mut self.particles, &self.model, &self.settings, &self.probes);
         if let Some(polish) = self.polishes() {
             while self.grants_sweep(polish) {
-                self.sweep(lag);
+                self.sweep(None);
                 limits::guard(&mut self.particles, &self.model, &self.settings, &self.probes);
             }
         }
@@ -202,8 +204,9 @@ impl Reference {
         self.step += 1;
     }
 
-    /// One sweep: seams, limits and bodies take their turns, and the seams once more.
-    fn sweep(&mut self, lag: Lag) {
+    /// One sweep: seams, limits and bodies take their turns, and the seams once more. The points look at the bodies in the first one of a step,
+    /// where the maps are `first` behind.
+    fn sweep(&mut self, first: Option<Lag>) {
         let Self { model, settings, particles, contacts, pulls, .. } = self;
         for colour in &model.seam_colours {
             step::draw_seams(particles, part(&model.seam_pairs, colour), settings.dt);
@@ -211,7 +214,7 @@ impl Reference {
         let touched = (!contacts.is_empty()).then_some(contacts.as_slice());
         limits::sweep(particles, model, settings, touched, pulls);
         if self.colliders.any() {
-            self.collide(lag);
+            self.collide(first);
         }
         let Self { model, settings, particles, .. } = self;
         for colour in &model.seam_colours {
@@ -231,11 +234,13 @@ impl Reference {
         step::grant_sweep(&mut self.polish, polish.sweeps)
     }
 
-    fn collide(&mut self, lag: Lag) {
+    fn collide(&mut self, first: Option<Lag>) {
         let midpoints = step::quad_midpoints(&self.particles.positions, &self.particles.velocities, &self.model.quads);
-        let quads = self.probes_of(&midpoints.positions, &midpoints.velocities, lag);
-        self.probes = self.probes_of(&self.particles.positions, &self.particles.velocities, lag);
-        let probes = step::Probes { particles: &self.probes, quads: &quads };
+        if let Some(lag) = first {
+            self.quad_probes = self.probes_of(&midpoints.positions, &midpoints.velocities, lag);
+            self.probes = self.probes_of(&self.particles.positions, &self.particles.velocities, lag);
+        }
+        let probes = step::Probes { particles: &mut self.probes, quads: &self.quad_probes };
         self.contacts =
             step::collide(&mut self.particles, &self.model.particle_quads, &midpoints, probes, &self.settings);
     }

@@ -118,7 +118,7 @@ pub fn answer(kernel: Kernel, input: &mut Input) {
             step::sample_shapes(&mut input.probes, &positions, &velocities, &before.shapes, settings);
         }
         Kernel::Collide => {
-            let (particle_probes, quad_probes) = before.probes.split_at(before.particle_count());
+            let (particle_probes, quad_probes) = input.probes.split_at_mut(before.particle_count());
             let probes = step::Probes { particles: particle_probes, quads: quad_probes };
             input.contacts =
                 step::collide(particles, &before.model.particle_quads, &before.midpoints, probes, settings);

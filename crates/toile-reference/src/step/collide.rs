@@ -9,10 +9,10 @@ use toile_model::{Csr, StepSettings};
 const CORNER_COUNT: f32 = 4.0;
 
 /// What the points see: `particles` the shape [particle_count], `quads` the shape [quad_count].
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub struct Probes<'a> {
-    /// Probe of each particle.
-    pub particles: &'a [Probe],
+    /// Probe of each particle, which goes on with it on its way out of a body.
+    pub particles: &'a mut [Probe],
     /// Probe of each quad midpoint.
     pub quads: &'a [Probe],
 }
@@ -33,14 +33,14 @@ pub fn collide(
     (0..particles.positions.len())
         .map(|i| {
             let velocity = particles.velocities[i];
-            let probe = &probes.particles[i];
-            let touching = touches(velocity, probe, settings);
+            let probe = probes.particles[i];
+            let touching = touches(velocity, &probe, settings);
             let mut sum = Vec3::ZERO;
             let mut count = 0.0;
             if touching {
-                let gain = missing_speed(velocity, probe, settings);
+                let gain = missing_speed(velocity, &probe, settings);
                 if gain > 0.0 {
-                    sum += change(velocity, probe, gain, settings);
+                    sum += change(velocity, &probe, gain, settings);
                     count += 1.0;
                 }
             }
@@ -62,12 +62,14 @@ pub fn collide(
                     answered += sum / count;
                 }
                 if touching {
-                    let gain = missing_speed(answered, probe, settings);
+                    let gain = missing_speed(answered, &probe, settings);
                     if gain > 0.0 {
-                        answered += change(answered, probe, gain, settings);
+                        answered += change(answered, &probe, gain, settings);
                     }
                     let depth = (-probe.distance).max(0.0);
-                    particles.positions[i] += probe.normal * depth.min(settings.push_speed_per_sweep() * settings.dt);
+                    let way = depth.min(settings.push_speed_per_sweep() * settings.dt);
+                    particles.positions[i] += probe.normal * way;
+                    probes.particles[i].distance += way;
                 }
                 particles.velocities[i] = answered;
             }

@@ -5,9 +5,12 @@ use glam::{Vec3, Vec3Swizzles};
 use std::cmp::Ordering;
 use toile_model::{ShapeKind, ShapeStep, StepSettings};
 
-/// Writes the nearest of the shapes that a point reaches within this step into its probe, where the probe has no surface yet or a
-/// farther one. A point whose way, seen from a shape, would enter it meets it where it does. All arrays but `shapes` have the shape
-/// [point_count].
+/// Farther than anything [m].
+const FAR: f32 = 1e30;
+
+/// Writes the shape that answers a point into its probe, where no surface that was seen before does: one that the point reaches within this
+/// step before those that it does not, and the nearer first. A point whose way, seen from a shape, would enter it meets it where it
+/// does. All arrays but `shapes` have the shape [point_count].
 pub fn sample_shapes(
     probes: &mut [Probe],
     positions: &[Vec3],
@@ -16,13 +19,17 @@ pub fn sample_shapes(
     settings: &StepSettings,
 ) {
     for ((probe, &position), &velocity) in probes.iter_mut().zip(positions).zip(velocities) {
-        let seen = shapes.iter().filter_map(|shape| look_at(shape, position, velocity, settings));
-        let reached = seen.filter(|seen| {
+        let is_reached = |seen: &Probe| {
             seen.distance + (velocity - seen.velocity).dot(seen.normal) * settings.dt < settings.contact_margin
-        });
-        let nearest = reached.reduce(|first, next| if order(&next, &first).is_lt() { next } else { first });
-        if let Some(nearest) = nearest.filter(|nearest| !probe.hit || nearest.distance < probe.distance) {
-            *probe = nearest;
+        };
+        let order =
+            |one: &Probe, other: &Probe| is_reached(other).cmp(&is_reached(one)).then_with(|| nearer(one, other));
+        let seen = shapes.iter().filter_map(|shape| look_at(shape, position, velocity, settings));
+        // What is no number has no distance.
+        let seen = seen.filter(|seen| seen.distance < FAR);
+        let answer = seen.reduce(|first, next| if order(&next, &first).is_lt() { next } else { first });
+        if let Some(answer) = answer.filter(|answer| !probe.hit || order(answer, probe).is_lt()) {
+            *probe = answer;
         }
     }
 }
@@ -93,10 +100,10 @@ fn look_at_plane(shape: &ShapeStep, radial: Vec3) -> Probe {
 }
 
 /// The nearer first; of two that are equally near the one whose normal, then whose velocity is larger in the first coordinate that differs.
-fn order(one: &Probe, other: &Probe) -> Ordering {
+fn nearer(one: &Probe, other: &Probe) -> Ordering {
     let larger = |one: Vec3, other: Vec3| other.to_array().partial_cmp(&one.to_array()).unwrap_or(Ordering::Equal);
-    let nearer = one.distance.partial_cmp(&other.distance).unwrap_or(Ordering::Equal);
-    nearer.then(larger(one.normal, other.normal)).then(larger(one.velocity, other.velocity))
+    let by_distance = one.distance.partial_cmp(&other.distance).unwrap_or(Ordering::Greater);
+    by_distance.then(larger(one.normal, other.normal)).then(larger(one.velocity, other.velocity))
 }
 
 /// After which part of its way a place outside of a sphere around the origin first meets it: the smaller root of

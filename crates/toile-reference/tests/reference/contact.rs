@@ -97,9 +97,10 @@ fn pressed(pressing: f32, sweeps: u32) -> Vec3 {
     let mut particles = toile_reference::Particles::new(&model);
     particles.positions.iter_mut().for_each(|position| position.z = 0.0);
     particles.velocities.fill(vec3(2.0, 0.0, -1.0));
-    let probes = step::sample_body_maps(&particles.positions, &particles.velocities, &maps, Lag::default(), &settings);
+    let mut probes =
+        step::sample_body_maps(&particles.positions, &particles.velocities, &maps, Lag::default(), &settings);
     let midpoints = step::quad_midpoints(&particles.positions, &particles.velocities, &model.quads);
-    let seen = step::Probes { particles: &probes, quads: &[Probe::default()] };
+    let seen = step::Probes { particles: &mut probes, quads: &[Probe::default()] };
     step::collide(&mut particles, &model.particle_quads, &midpoints, seen, &settings);
     particles.velocities[0]
 }
@@ -124,11 +125,12 @@ fn a_rebound_gives_back_its_part_of_the_approach() {
     for position in &mut model.positions {
         position.z = 0.0005;
     }
-    let probes = step::sample_body_maps(&model.positions, &[vec3(0.1, 0.0, -1.0); 4], &maps, Lag::default(), &settings);
+    let mut probes =
+        step::sample_body_maps(&model.positions, &[vec3(0.1, 0.0, -1.0); 4], &maps, Lag::default(), &settings);
     let mut particles = toile_reference::Particles::new(&model);
     particles.velocities = vec![vec3(0.1, 0.0, -1.0); 4];
     let midpoints = step::quad_midpoints(&particles.positions, &particles.velocities, &model.quads);
-    let seen = step::Probes { particles: &probes, quads: &[Probe::default()] };
+    let seen = step::Probes { particles: &mut probes, quads: &[Probe::default()] };
     step::collide(&mut particles, &model.particle_quads, &midpoints, seen, &settings);
     for velocity in particles.velocities {
         assert!((velocity - vec3(0.1, 0.0, 0.5)).length() < 1e-6, "{velocity}");
@@ -145,7 +147,7 @@ fn a_colliding_midpoint_stops_its_corners_and_pushes_none_away() {
     let before = particles.velocities.clone();
     let midpoints = step::quad_midpoints(&particles.positions, &particles.velocities, &model.quads);
     let touched = [Probe { normal: Vec3::Y, distance: 0.0, velocity: Vec3::ZERO, hit: true }];
-    let seen = step::Probes { particles: &[Probe::default(); 4], quads: &touched };
+    let seen = step::Probes { particles: &mut [Probe::default(); 4], quads: &touched };
     step::collide(&mut particles, &model.particle_quads, &midpoints, seen, &settings);
     assert!((particles.velocities[0].y + 0.4).abs() < 1e-6, "{}", particles.velocities[0]);
     assert_eq!(particles.velocities[1..], before[1..], "who does not approach is left alone");
@@ -303,7 +305,7 @@ fn a_contact_remembers_the_surface_it_touched() {
     let mut probes = [Probe { normal: Vec3::Y, distance: 0.0, velocity, hit: true }; 4];
     probes[0].hit = false;
     let midpoints = step::quad_midpoints(&particles.positions, &particles.velocities, &model.quads);
-    let seen = step::Probes { particles: &probes, quads: &[Probe::default()] };
+    let seen = step::Probes { particles: &mut probes, quads: &[Probe::default()] };
     let contacts = step::collide(&mut particles, &model.particle_quads, &midpoints, seen, &settings());
     assert_eq!(contacts[0], Contact::default());
     assert_eq!(contacts[1], Contact { normal: Vec3::Y, velocity, touching: true });

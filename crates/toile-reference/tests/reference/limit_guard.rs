@@ -81,5 +81,5 @@ fn cloth_gives_way_into_its_thickness_before_a_spring_yields_further() {
 #[test]
 fn cloth_that_is_much_too_short_gives_way_no_deeper_and_stretches() {
     let (elongation, depth) = on_a_ball(Rule::Hierarchical, 0.2);
-    assert!(elongation > 0.17 && depth < 0.0 && depth > -3e-4, "{elongation}, {depth} m");
+    assert!(elongation > 0.17 && depth < 1e-6 && depth > -3e-4, "{elongation}, {depth} m");
 }

@@ -24,6 +24,7 @@ pub struct Life<'a> {
     particles: Particles,
     contacts: Vec<Contact>,
     probes: Vec<Probe>,
+    quad_probes: Vec<Probe>,
     pulls: Vec<Vec3>,
     /// Steps done.
     pub steps: u32,
@@ -43,6 +44,7 @@ impl<'a> Life<'a> {
             particles: Particles::new(model),
             contacts: vec![Contact::default(); model.positions.len()],
             probes: Vec::new(),
+            quad_probes: Vec::new(),
             pulls: vec![Vec3::ZERO; model.positions.len()],
             steps: 0,
             collision_time: Duration::ZERO,
@@ -59,10 +61,10 @@ impl<'a> Life<'a> {
         step::reaction(&mut forces, particles, &self.contacts, settings);
         step::euler(&mut particles.velocities, &forces, &particles.inverse_masses, dt);
         limits::warm_start(particles, settings, &mut self.pulls);
-        for _ in 0..self.settings.sweeps {
+        for sweep in 0..self.settings.sweeps {
             let Self { model, settings, particles, pulls, .. } = self;
             limits::sweep(particles, model, settings, None, pulls);
-            self.collide();
+            self.collide(sweep == 0);
         }
         limits::guard(&mut self.particles, self.model, &self.settings, &self.probes);
         step::move_particles(&mut self.particles.positions, &self.particles.velocities, dt);
@@ -70,29 +72,34 @@ impl<'a> Life<'a> {
         self.time += start.elapsed();
     }
 
-    fn collide(&mut self) {
+    /// The points look at the body in the first sweep of a step.
+    fn collide(&mut self, looks: bool) {
         let start = Instant::now();
-        let Self { model, settings, particles, .. } = self;
-        let (own, quads, midpoints) = match self.collision {
-            Collision::Image(maps) => {
-                let midpoints = step::quad_midpoints(&particles.positions, &particles.velocities, &model.quads);
-                let quads =
-                    step::sample_body_maps(&midpoints.positions, &midpoints.velocities, maps, Lag::default(), settings);
-                let own =
-                    step::sample_body_maps(&particles.positions, &particles.velocities, maps, Lag::default(), settings);
-                (own, quads, midpoints)
-            }
-            Collision::Object(body) => {
-                let own = body.probes(&particles.positions, &particles.velocities, settings);
-                let count = model.quads.len();
-                let nothing = vec![glam::Vec3::ZERO; count];
-                let midpoints = Midpoints { positions: nothing.clone(), velocities: nothing };
-                (own, vec![Probe::default(); count], midpoints)
+        let Self { model, settings, particles, probes, quad_probes, .. } = self;
+        let midpoints = match self.collision {
+            Collision::Image(_) => step::quad_midpoints(&particles.positions, &particles.velocities, &model.quads),
+            Collision::Object(_) => {
+                let nothing = vec![glam::Vec3::ZERO; model.quads.len()];
+                Midpoints { positions: nothing.clone(), velocities: nothing }
             }
         };
-        let probes = step::Probes { particles: &own, quads: &quads };
+        if looks {
+            (*probes, *quad_probes) = match self.collision {
+                Collision::Image(maps) => {
+                    let look = |positions: &[glam::Vec3], velocities: &[glam::Vec3]| {
+                        step::sample_body_maps(positions, velocities, maps, Lag::default(), settings)
+                    };
+                    let own = look(&particles.positions, &particles.velocities);
+                    (own, look(&midpoints.positions, &midpoints.velocities))
+                }
+                Collision::Object(body) => {
+                    let own = body.probes(&particles.positions, &particles.velocities, settings);
+                    (own, vec![Probe::default(); model.quads.len()])
+                }
+            };
+        }
+        let probes = step::Probes { particles: probes, quads: quad_probes };
         self.contacts = step::collide(particles, &model.particle_quads, &midpoints, probes, settings);
-        self.probes = own;
         self.collision_time += start.elapsed();
     }
 
