@@ -1,6 +1,7 @@
 //! A body that the host skins: it gives the maps of the same body from a file, and cloth on it goes the same way.
 
 use glam::{DQuat, DVec3, Vec3, vec3};
+use std::cell::OnceCell;
 use toile::gpu::{HostAttribute, HostMotion, HostVertices, MapSpace, MovingBody};
 use toile::{Error, Simulation};
 use toile_lab::DrawnMaps;
@@ -9,12 +10,22 @@ use toile_lab::kernels::{first_difference, vec3_words};
 use toile_model::MapBox;
 use toile_reference::maps::LayerMaps;
 use toile_scene::{Body, MapKind, Mesh, MovingMesh, RigidKey, Scene};
-use toile_workspace::gpu;
+use toile_workspace::Gpu;
 
 const STORAGE: wgpu::BufferUsages = wgpu::BufferUsages::STORAGE;
 const FRAME: f64 = 1.0 / 60.0;
 /// Words of a vertex of the host: something else, position, normal, velocity, the position before.
 const STRIDE: usize = 14;
+
+/// The device of this test alone. One that waits for its commands has their answers too, unless another thread of the device is handing
+/// them over just then.
+fn gpu() -> &'static Gpu {
+    thread_local! {
+        static GPU: OnceCell<&'static Gpu> = const { OnceCell::new() };
+    }
+    let open = || Box::leak(Box::new(Gpu::open(wgpu::Backends::all()).unwrap_or_else(|fault| panic!("{fault}"))));
+    GPU.with(|gpu| *gpu.get_or_init(|| open()))
+}
 
 /// The vertices of a host that keeps all of them in one buffer, among other things, with normals of some length.
 fn interleaved(mesh: &Mesh, velocities: &[Vec3], last: &[Vec3], by_velocity: bool) -> HostVertices {
@@ -217,6 +228,33 @@ fn the_maps_follow_a_body_that_the_host_skins() {
         show(simulation, 61.475);
         simulation.stage().expect("the maps have followed");
     }
+}
+
+/// A host that has four frames under way sees all answers of the device late.
+#[test]
+fn the_maps_follow_where_answers_come_late() {
+    let ball = rolling_ball(0.0).mesh;
+    let scene = sheet_on(MovingMesh::hosted(ball.clone()));
+    let mut simulation = Simulation::new(&gpu().device, &scene).expect("its body is finite");
+    let still = vec![Vec3::ZERO; ball.positions.len()];
+    // It sets off within half a second, and then goes 1.2 m/s: 0.14 m in seven frames, where there is room for 0.1 m.
+    let x = |frame: u32| if frame < 30 { frame.pow(2) as f32 / 3000.0 } else { 0.3 + 0.02 * (frame - 30) as f32 };
+    for batch in 0..20 {
+        let frames = (4 * batch..4 * batch + 4).map(|frame| {
+            let mut mesh = ball.clone();
+            mesh.positions.iter_mut().for_each(|p| p.x += x(frame));
+            simulation.set_vertices(interleaved(&mesh, &still, &mesh.positions, true));
+            let mut encoder = gpu().device.create_command_encoder(&Default::default());
+            simulation.advance(&mut encoder, FRAME).expect("it fits and stays finite");
+            simulation.stage().expect("the body is within its maps");
+            encoder.finish()
+        });
+        let frames: Vec<_> = frames.collect();
+        gpu().queue.submit(frames);
+        gpu().device.poll(wgpu::PollType::wait_indefinitely()).expect("the device answers");
+    }
+    let map_box = simulation.map_box().expect("there are maps");
+    assert!(map_box.corner().x < x(79) - 0.25 && map_box.far_corner().x > x(79) + 0.25, "{map_box:?}");
 }
 
 /// A body that has gone 1.5 m away, and 40 m by a teleport, is found where it was: by a reset, and by another simulation that goes on from its state.

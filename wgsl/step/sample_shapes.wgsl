@@ -1,5 +1,6 @@
-// What each point sees of the analytic shapes, exactly: of those that it reaches within this step the nearest answers, where it is nearer than what
-// the point sees in the maps. Where it reaches none, the nearest answers all the same: a later sweep may change its way. The whole way of the coming move is tested, relative to the shape: a point that would enter meets it where its way does.
+// What each point sees of the analytic shapes, exactly: of those that it reaches within this step the nearest answers, where it is nearer than
+// what the point sees in the maps. Where it reaches none, the nearest answers all the same: a later sweep may change its way. The whole
+// way of the coming move is tested, relative to the shape: a point that would enter meets it where its way does.
 #import shared/point
 #import struct/Shape
 

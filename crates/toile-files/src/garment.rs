@@ -54,7 +54,7 @@ pub struct GarmentFile {
 /// [`FileError`] with panel and edge when the file cannot be read, is not valid JSON, has an outline that is open, crosses
 /// itself or has a coordinate that is not finite, an edge whose curve cannot exist, a panel larger than 10 m, or a stitch
 /// to a panel or edge that does not exist.
-pub fn read_garment_file(path: &Path) -> Result<GarmentFile, FileError> {
+pub fn read_garment(path: &Path) -> Result<GarmentFile, FileError> {
     let text = source::read_text(path)?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     parse(&text, &stem).map_err(|found| found.in_file(path))
@@ -64,28 +64,10 @@ pub fn read_garment_file(path: &Path) -> Result<GarmentFile, FileError> {
 ///
 /// # Errors
 ///
-/// As [`read_garment_file`].
-pub fn parse_garment_file(text: &str, name: &str) -> Result<GarmentFile, FileError> {
+/// As [`read_garment`].
+pub fn parse_garment(text: &str, name: &str) -> Result<GarmentFile, FileError> {
     let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
     parse(text.strip_prefix('\u{feff}').unwrap_or(text), &stem).map_err(|found| found.in_file(name))
-}
-
-/// The garment of [`read_garment_file`] alone.
-///
-/// # Errors
-///
-/// As [`read_garment_file`].
-pub fn read_garment(path: &Path) -> Result<Garment, FileError> {
-    read_garment_file(path).map(|file| file.garment)
-}
-
-/// The garment of [`parse_garment_file`] alone.
-///
-/// # Errors
-///
-/// As [`read_garment_file`].
-pub fn parse_garment(text: &str, name: &str) -> Result<Garment, FileError> {
-    parse_garment_file(text, name).map(|file| file.garment)
 }
 
 /// How the file's numbers are meant.

@@ -8,7 +8,7 @@ mod toml_text;
 mod value;
 
 use crate::error::{FileError, Found, Place};
-use crate::garment::read_garment_file;
+use crate::garment::read_garment;
 use crate::scene::problem::Problem;
 use crate::scene::scene_toml::{
     CornerToml, FabricToml, FrictionToml, MapsToml, PinToml, PolishToml, RuleToml, SceneToml, SheetToml, WindToml,
@@ -71,7 +71,7 @@ fn convert(toml: SceneToml, stem: &str, folder: &Path) -> Result<SceneFile, Prob
     let mut warnings = Vec::new();
     for (index, garment) in toml.garment.iter().enumerate() {
         let fabric = fabric(&garment.fabric, format!("garment.{index}.fabric"))?;
-        let read = read_garment_file(&folder.join(&garment.file))?;
+        let read = read_garment(&folder.join(&garment.file))?;
         warnings.extend(read.warnings.iter().map(|warning| format!("{}: {warning}", garment.file)));
         cloths.push(Cloth::Garment(Garment { fabric, ..read.garment }));
     }

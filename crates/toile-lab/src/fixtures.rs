@@ -43,7 +43,7 @@ pub fn shapes(scene: &Scene) -> Vec<Shape> {
 
 /// A garment by name.
 pub fn garment(name: &str) -> Garment {
-    read_garment(&fixture(&format!("garments/{name}.json"))).unwrap_or_else(|error| panic!("{error}"))
+    read_garment(&fixture(&format!("garments/{name}.json"))).unwrap_or_else(|error| panic!("{error}")).garment
 }
 
 /// The built-in body in the pose that it is dressed in.

@@ -5,6 +5,7 @@ mod bits;
 mod compiled;
 mod input;
 mod seeded;
+mod seeded_levels;
 
 pub use answer::answer;
 pub use bits::{Difference, first_difference, ulps, vec3_words};

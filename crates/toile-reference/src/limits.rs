@@ -56,7 +56,7 @@ fn levels(particles: &mut Particles, model: &Model, settings: &StepSettings, pul
 }
 
 /// After the sweeps, where no seam is open: no contact leaves a spring stretched far beyond its limit, and no particle goes deeper into a
-/// body for it than the cloth is thick. `probes` are what the particles saw in the last sweep, shape [particle_count], empty without body.
+/// body for it than the cloth is thick. `probes` are what the particles saw in this step, shape [particle_count], empty without body.
 pub fn guard(particles: &mut Particles, model: &Model, settings: &StepSettings, probes: &[Probe]) {
     if settings.rule != Rule::Hierarchical || settings.sweeps == 0 || !model.seam_pairs.is_empty() {
         return;

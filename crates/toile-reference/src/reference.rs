@@ -76,8 +76,9 @@ pub struct Reference {
     particles: Particles,
     /// Contacts of the last step, shape [particle_count]; empty without body.
     contacts: Vec<Contact>,
-    /// What the particles saw in the last sweep, shape [particle_count]; empty without body.
+    /// What the particles saw in this step, shape [particle_count]; empty without body.
     probes: Vec<Probe>,
+    /// The same of the quads, shape [quad_count].
     quad_probes: Vec<Probe>,
     /// What limits gave each particle in the last step [m/s], shape [particle_count].
     pulls: Vec<Vec3>,
@@ -204,8 +205,8 @@ impl Reference {
         self.step += 1;
     }
 
-    /// One sweep: seams, limits and bodies take their turns, and the seams once more. The points look at the bodies in the first one of a step,
-    /// where the maps are `first` behind.
+    /// One sweep: seams, limits and bodies take their turns, and the seams once more. Points look at the bodies in the `first` sweep of a step alone,
+    /// whose maps lag so.
     fn sweep(&mut self, first: Option<Lag>) {
         let Self { model, settings, particles, contacts, pulls, .. } = self;
         for colour in &model.seam_colours {

@@ -126,7 +126,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let character = Character::new(&device, &mesh);
     let scene = Scene {
         name: "character".to_owned(),
-        cloths: vec![Cloth::Garment(read_garment(&fixtures.join("garments/skirt.json"))?)],
+        cloths: vec![Cloth::Garment(read_garment(&fixtures.join("garments/skirt.json"))?.garment)],
         bodies: vec![Body::Moving(MovingMesh::hosted(mesh))],
         settings: Settings { spacing: 0.03, ..Settings::new(Fabric::preset("cotton").ok_or("cotton is a preset")?) },
     };

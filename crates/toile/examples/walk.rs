@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let cotton = Fabric::preset("cotton").ok_or("cotton is a preset")?;
     let scene = Scene {
         name: "walk".to_owned(),
-        cloths: vec![Cloth::Garment(read_garment(&fixtures.join("garments/skirt.json"))?)],
+        cloths: vec![Cloth::Garment(read_garment(&fixtures.join("garments/skirt.json"))?.garment)],
         bodies: vec![Body::Moving(body)],
         settings: Settings { spacing: 0.03, ..Settings::new(cotton) },
     };

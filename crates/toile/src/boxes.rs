@@ -4,7 +4,7 @@ use crate::Error;
 use glam::{DVec3, Vec3};
 use toile_gpu::MapSpace;
 use toile_model::MapBox;
-use toile_scene::{MapKind, Motion, MovingMesh};
+use toile_scene::{MapKind, Mesh, Motion, MovingMesh};
 
 /// Bounds of a body are looked up in a table of so many per second [1/s].
 const BOUNDS_RATE: f64 = 60.0;
@@ -35,12 +35,43 @@ pub(crate) struct Boxes {
     area: f64,
 }
 
-/// A cube around where a body was seen last.
+/// A cube around a body, from where it was seen last.
 #[derive(Clone, Copy, Debug)]
 struct Cube {
+    /// The middle of the body as it was seen last.
     centre: Vec3,
+    /// When that was [s], and how fast it went [m/s]; `None` since it was set elsewhere.
+    seen: Option<(f64, Vec3)>,
     /// Half of its edge [m].
     reach: f32,
+    /// How far the body may stand off the middle of the cube and be inside of it [m].
+    room: f32,
+}
+
+impl Cube {
+    fn around(mesh: &Mesh, margin: f32) -> Self {
+        let [low, high] = mesh.bounds().unwrap_or_default();
+        let half = 0.5 * (high - low).max_element();
+        let room = (HOSTED_ROOM - 1.0) * half;
+        Self { centre: low.midpoint(high), seen: None, reach: half + room + margin, room }
+    }
+
+    /// The body was seen here at a time [s].
+    fn see(&mut self, middle: Vec3, time: f64) {
+        let velocity = match self.seen {
+            Some((before, _)) if before < time => (middle - self.centre) / (time - before) as f32,
+            _ => Vec3::ZERO,
+        };
+        (self.centre, self.seen) = (middle, Some((time, velocity)));
+    }
+
+    /// Where it stands at a time [s]: the answers of the device come late, so it goes on as the body went. Within the room alone: a
+    /// body that stops is then inside all the same.
+    fn corners(&self, time: f64) -> [Vec3; 2] {
+        let ahead = self.seen.map_or(Vec3::ZERO, |(seen, velocity)| velocity * (time - seen).max(0.0) as f32);
+        let centre = self.centre + ahead.clamp_length_max(self.room);
+        [centre - self.reach, centre + self.reach]
+    }
 }
 
 /// Where a body jumps: the box around both ends would be as large as the jump is far.
@@ -116,10 +147,7 @@ impl Boxes {
             _ => None,
         };
         let hosted = moving.iter().find(|body| matches!(body.motion, Motion::Hosted));
-        let hosted = hosted.map(|body| {
-            let [low, high] = body.mesh.bounds().unwrap_or_default();
-            Cube { centre: low.midpoint(high), reach: 0.5 * HOSTED_ROOM * (high - low).max_element() + margin }
-        });
+        let hosted = hosted.map(|body| Cube::around(&body.mesh, margin));
         if hosted.is_some() {
             area *= HOSTED_AREA;
         }
@@ -153,10 +181,17 @@ impl Boxes {
         MapBox::moving(bounds, self.texel, self.size)
     }
 
-    /// Stands around a body that the host skins from now on, which was seen within these bounds [m].
-    pub(crate) fn follow(&mut self, [low, high]: [Vec3; 2]) {
+    /// Follows a body that the host skins, which was seen within these bounds [m] at a time [s].
+    pub(crate) fn follow(&mut self, [low, high]: [Vec3; 2], time: f64) {
         if let Some(cube) = &mut self.hosted {
-            cube.centre = low.midpoint(high);
+            cube.see(low.midpoint(high), time);
+        }
+    }
+
+    /// Stands around a body that the host skins, whose middle is here now [m].
+    pub(crate) fn stand_around(&mut self, middle: Vec3) {
+        if let Some(cube) = &mut self.hosted {
+            (cube.centre, cube.seen) = (middle, None);
         }
     }
 
@@ -174,8 +209,8 @@ impl Boxes {
 
     /// The box around the bodies from one time of the table to the next; where a body jumps between them, around where it stands.
     fn around(&self, time: f64) -> [Vec3; 2] {
-        if let Some(Cube { centre, reach }) = self.hosted {
-            return [centre - reach, centre + reach];
+        if let Some(cube) = &self.hosted {
+            return cube.corners(time);
         }
         // A time of the table stays one whatever the rounding: boxes of the same pose are then the same.
         let index = (time * BOUNDS_RATE + 1e-4) as usize;
@@ -254,10 +289,36 @@ mod tests {
         let lying = [Vec3::new(-0.8, 0.7, -0.1), Vec3::new(0.8, 0.9, 0.1)];
         assert!(holds(&boxes, lying[0], lying[1]));
         let far = Vec3::new(300.0, 1.0, -20.0);
-        boxes.follow([far - 0.1, far + 0.1]);
+        boxes.follow([far - 0.1, far + 0.1], 7.0);
         assert!(holds(&boxes, far - 0.8, far + 0.8) && !holds(&boxes, lying[0], lying[1]));
         boxes.go_along(DVec3::Y);
         assert_eq!(boxes.middle(), Some(far + Vec3::Y));
+    }
+
+    #[test]
+    fn answers_that_come_late_are_made_up_for() {
+        let bar = Mesh::cuboid(Vec3::new(-0.1, -0.8, -0.1), Vec3::new(0.1, 0.8, 0.1));
+        let mut boxes = Boxes::new(&[MovingMesh::hosted(bar)], &[], 0.01, 0.002, false).expect("all is finite");
+        let holds = |boxes: &Boxes, time: f64, x: f32| {
+            let map_box = boxes.at(time, DVec3::ZERO);
+            map_box.corner().x < x - 0.8 && map_box.far_corner().x > x + 0.8
+        };
+        // Every answer is ten frames old: 2.5 m/s are 0.42 m, where there is room for 0.27 m.
+        boxes.follow([Vec3::ZERO; 2], 0.0);
+        for frame in 1..30_u32 {
+            let time = f64::from(frame) / 60.0;
+            boxes.follow([Vec3::X * 2.5 * time as f32; 2], time);
+            assert!(holds(&boxes, time + 10.0 / 60.0, 2.5 * (time as f32 + 10.0 / 60.0)), "{frame}");
+            // It may stop at once, too.
+            assert!(holds(&boxes, time + 1.0, 2.5 * time as f32), "{frame}");
+        }
+        // What it did before it was set elsewhere says nothing.
+        boxes.stand_around(Vec3::ZERO);
+        assert!(holds(&boxes, 9.0, 0.24) && holds(&boxes, 9.0, -0.24));
+        // Nor does what it will have done at a time gone back to.
+        boxes.follow([Vec3::X; 2], 8.0);
+        boxes.follow([Vec3::X * 1.1; 2], 7.0);
+        assert!(holds(&boxes, 7.5, 1.34) && holds(&boxes, 7.5, 0.86));
     }
 
     #[test]

@@ -13,6 +13,8 @@ mod dressed;
 mod error;
 mod fitting;
 mod frame;
+mod hosted_body;
+mod layer;
 mod outfit;
 mod pins;
 mod pose;
@@ -20,6 +22,7 @@ mod simulation;
 mod stage;
 mod state;
 mod strain;
+mod told;
 
 pub use glam;
 pub use wgpu;

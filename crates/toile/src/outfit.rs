@@ -1,6 +1,8 @@
 //! Cloths that go together on bodies, each over the ones before it.
 
 use crate::boxes::{Boxes, MapPlan};
+use crate::hosted_body::HostedBody;
+use crate::layer::{Layer, Seen, raised};
 use crate::pins::Pins;
 use crate::{Cloth, Colliders, Error};
 use glam::{DMat4, DVec3, Vec3};
@@ -10,7 +12,7 @@ use std::ops::Range;
 use std::sync::Arc;
 use toile_gpu::{BodyMaps, HostVertices, Kernels, MapsFault, MovingBody, Raised, Surface, Trail};
 use toile_model::{MapBox, Model, StepSettings, raised_ways};
-use toile_scene::{Lead, Mesh, Motion, MovingMesh, Shape};
+use toile_scene::{Lead, Mesh, MovingMesh, Shape};
 
 /// Maps of moving bodies are drawn so often at least [1/s]; in between, surfaces go straight on by the velocity map.
 const MAP_RATE: f64 = 60.0;
@@ -85,12 +87,7 @@ pub(crate) struct Outfit {
     kept: Option<KeptMaps>,
     /// How far bodies that move stand from where their motion has them [m].
     place: DVec3,
-    /// Which of the bodies that move the host skins.
-    hosted: Option<usize>,
-    /// The maps' box when it was asked where that body is; `None` where the answer no longer counts.
-    asked_in: Option<MapBox>,
-    /// How far that body was outside of its maps when it was seen last [m]; 0 inside, and once it was told.
-    outside: f32,
+    hosted: Option<HostedBody>,
 }
 
 /// The maps of a body over one round of its motion.
@@ -100,27 +97,6 @@ struct KeptMaps {
     interval: f64,
     /// The first shows the body one interval after the start, the last at the end.
     maps: Vec<(BodyMaps, MapBox)>,
-}
-
-/// One cloth and what it sees.
-#[derive(Debug)]
-struct Layer {
-    cloth: Cloth,
-    is_worn: bool,
-    /// What the host holds of it.
-    pins: Pins,
-    maps: Option<Arc<BodyMaps>>,
-    /// What the maps of the next cloth draw of this one; the outermost has none.
-    seen: Option<Seen>,
-}
-
-/// A cloth as the one over it sees it.
-#[derive(Debug)]
-struct Seen {
-    surface: Surface,
-    trail: Trail,
-    /// Where one over it is thinner.
-    raised: Option<Raised>,
 }
 
 /// How often the maps are drawn in a frame of so many steps: at least at the map rate, and so that the steps divide evenly.
@@ -192,9 +168,7 @@ impl Outfit {
             layers,
             kept: None,
             place: DVec3::ZERO,
-            hosted: bodies.moving.iter().position(|body| matches!(body.motion, Motion::Hosted)),
-            asked_in: None,
-            outside: 0.0,
+            hosted: HostedBody::among(&bodies.moving),
         })
     }
 
@@ -356,7 +330,7 @@ impl Outfit {
         if let Some(boxes) = &mut self.boxes {
             boxes.go_along(place - self.place);
         }
-        self.asked_in = None;
+        self.hosted.iter_mut().for_each(HostedBody::forget);
         self.place = place;
         self.moving.iter_mut().for_each(|body| body.set_place(place));
         self.posed = None;
@@ -370,8 +344,8 @@ impl Outfit {
         time: f64,
         seconds: f64,
     ) -> Result<(), Error> {
-        let Some(index) = self.hosted else { return Ok(()) };
-        Ok(self.moving[index].give(device, vertices, time, seconds)?)
+        let Some(hosted) = &self.hosted else { return Ok(()) };
+        Ok(self.moving[hosted.index].give(device, vertices, time, seconds)?)
     }
 
     /// The middle of a body that the host skins, as it was seen last.
@@ -382,24 +356,14 @@ impl Outfit {
     /// Has the maps stand around a place where the body is that the host skins.
     pub(crate) fn stand_around(&mut self, middle: Vec3) {
         if let Some(boxes) = &mut self.boxes {
-            boxes.follow([middle; 2]);
+            boxes.stand_around(middle);
         }
-        self.asked_in = None;
-    }
-
-    /// Has the maps follow the body that the host skins, as far as it has been seen.
-    fn follow(&mut self) {
-        let (Some(index), Some(boxes)) = (self.hosted, &mut self.boxes) else { return };
-        let (Some(bounds), Some(map_box)) = (self.moving[index].take_bounds(), self.asked_in.take()) else { return };
-        let short = (map_box.corner() - bounds[0]).max(bounds[1] - map_box.far_corner());
-        self.outside = short.max_element().max(0.0);
-        boxes.follow(bounds);
+        self.hosted.iter_mut().for_each(HostedBody::forget);
     }
 
     /// How far a body that the host skins was outside of its maps when it was seen last [m], told once; `None` where it was inside.
     pub(crate) fn take_outside(&mut self) -> Option<f32> {
-        let outside = std::mem::take(&mut self.outside);
-        (outside > 0.0).then_some(outside)
+        self.hosted.as_mut()?.take_outside()
     }
 
     /// How far bodies that move stand from where their motion has them [m].
@@ -520,16 +484,16 @@ impl Outfit {
             }
             return;
         }
-        self.follow();
+        if let (Some(hosted), Some(boxes)) = (&mut self.hosted, &mut self.boxes) {
+            hosted.follow(&mut self.moving, boxes);
+        }
         let innermost = self.layers.first().and_then(|layer| layer.maps.as_ref());
         self.moving.iter_mut().for_each(|body| body.record_pose(device, encoder, time));
         if let Some(boxes) = &self.boxes {
             self.shown = Some(boxes.at(time, self.place));
         }
-        if let Some(index) = self.hosted
-            && self.moving[index].record_bounds(encoder)
-        {
-            self.asked_in = self.shown;
+        if let Some(hosted) = &mut self.hosted {
+            hosted.ask(encoder, &self.moving, self.shown, time);
         }
         if let (Some(innermost), Some(shown)) = (innermost, self.shown) {
             let surfaces = self.still.iter().chain(self.moving.iter().map(MovingBody::surface));
@@ -610,16 +574,6 @@ impl Outfit {
         let kept = self.kept.iter().flat_map(|kept| &kept.maps).map(|(maps, _)| maps.bytes());
         self.moving.iter().map(MovingBody::bytes).sum::<u64>() + trails.sum::<u64>() + kept.sum::<u64>()
     }
-}
-
-/// What raises a surface by a way [m], and has it be the raised one; `None` where it stays.
-pub(crate) fn raised(kernels: &Kernels, surface: &mut Surface, vertex_count: u32, way: f32) -> Option<Raised> {
-    (way > 0.0).then(|| {
-        let raised = Raised::new(kernels, [&surface.positions, &surface.normals], vertex_count, way);
-        surface.positions = raised.positions().clone();
-        surface.normals = raised.normals().clone();
-        raised
-    })
 }
 
 /// How many maps a round of a body has, one every `interval` seconds; `None` when its motion is not closed or not a whole number of

@@ -57,12 +57,12 @@ pub fn walking_woman(clip: &str) -> Result<MovingMesh> {
 /// Reads the garments of the outfit, inner ones first, and what is unusual about them.
 pub fn read_garments(outfit: &Outfit) -> Result<(Vec<Garment>, Vec<String>)> {
     if outfit.garments.files.is_empty() {
-        return Ok((vec![files::parse_garment(GARMENT, "dress")?], Vec::new()));
+        return Ok((vec![files::parse_garment(GARMENT, "dress")?.garment], Vec::new()));
     }
     let (mut garments, mut warnings) = (Vec::new(), Vec::new());
     for (path, own) in &outfit.garments.files {
         let fabric = own.as_deref().map(fabric).transpose()?;
-        let file = files::read_garment_file(path)?;
+        let file = files::read_garment(path)?;
         warnings.extend(file.warnings.iter().map(|warning| format!("{}: {warning}", path.display())));
         garments.push(Garment { fabric, ..file.garment });
     }

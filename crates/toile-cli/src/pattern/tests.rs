@@ -11,7 +11,7 @@ fn settings() -> Settings {
 /// The skirt has darts, so that its panels are also sewn to themselves.
 fn skirt() -> Pattern {
     let text = include_str!("../../../../fixtures/garments/skirt.json");
-    let garment = parse_garment(text, "skirt").expect("it is whole");
+    let garment = parse_garment(text, "skirt").expect("it is whole").garment;
     let open = Model::from_garment(&garment, &settings()).expect("it meshes");
     let (sewn, merge) = open.sewn();
     Pattern { name: garment.name, open, sewn: Some(sewn), merge }

@@ -8,7 +8,7 @@ use fastrand::Rng;
 use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
-use toile_files::{BodyOptions, parse_body, parse_garment_file, parse_moving_body, read_fabric, read_scene};
+use toile_files::{BodyOptions, parse_body, parse_garment, parse_moving_body, read_fabric, read_scene};
 
 /// No file may take longer. What is read here takes milliseconds.
 const LONGEST: Duration = Duration::from_secs(10);
@@ -105,7 +105,7 @@ fn readers() -> Vec<Reader> {
             name: "garment",
             seeds: vec![garment_text().into_bytes(), text("garments/circle_skirt.json"), text("garments/skirt.json")],
             read: |bytes, _| {
-                if let Ok(file) = parse_garment_file(&String::from_utf8_lossy(bytes), "a.json") {
+                if let Ok(file) = parse_garment(&String::from_utf8_lossy(bytes), "a.json") {
                     for panel in &file.garment.panels {
                         let points = (0..panel.edges.len()).flat_map(|edge| panel.polyline(edge, 1e-3));
                         points.for_each(|point| assert!(point.is_finite()));

@@ -6,7 +6,9 @@ use crate::support::{ellipsoid, fixture, garment_text, obj_text, ply_bytes};
 use proptest::prelude::*;
 use std::fs;
 use std::sync::LazyLock;
-use toile_files::{BodyOptions, NamedMesh, parse_body, parse_garment, parse_moving_body, read_scene, write_glb};
+use toile_files::{
+    BodyOptions, GarmentFile, NamedMesh, parse_body, parse_garment, parse_moving_body, read_scene, write_glb,
+};
 
 /// Valid bodies, one of each format, and the name that tells the format.
 static BODIES: LazyLock<Vec<(&str, Vec<u8>)>> = LazyLock::new(|| {
@@ -167,7 +169,7 @@ proptest! {
     fn damaged_garments_end(damages in damage()) {
         let text = garment_text();
         let text = String::from_utf8_lossy(&damaged(text.as_bytes(), usize::MAX, &damages)).into_owned();
-        if let Ok(garment) = parse_garment(&text, "a.json") {
+        if let Ok(GarmentFile { garment, .. }) = parse_garment(&text, "a.json") {
             for panel in &garment.panels {
                 for edge in 0..panel.edges.len() {
                     prop_assert!(panel.polyline(edge, 1e-3).iter().all(|point| point.is_finite()));
@@ -188,7 +190,7 @@ proptest! {
         };
         let text = text.replacen("[0, 1]}", &format!("[0, 1], \"curvature\": {curvature}}}"), 1);
         let text = text.replace("inf", "Infinity");
-        if let Ok(garment) = parse_garment(&text, "a.json") {
+        if let Ok(GarmentFile { garment, .. }) = parse_garment(&text, "a.json") {
             let points = garment.panels[0].polyline(0, 1e-3);
             prop_assert!(points.iter().all(|point| point.is_finite() && point.length() < 20.0));
         }

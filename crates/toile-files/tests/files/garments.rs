@@ -3,11 +3,11 @@
 use crate::support::garment_text;
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use std::fs;
-use toile_files::{parse_garment, parse_garment_file, read_garment_file};
+use toile_files::{parse_garment, read_garment};
 use toile_scene::{Curve, EdgeRef, Garment};
 
 fn read(text: &str) -> Garment {
-    parse_garment(text, "garment.json").expect("a readable garment")
+    parse_garment(text, "garment.json").expect("a readable garment").garment
 }
 
 /// The garment with the top edge of its front panel curved.
@@ -225,7 +225,7 @@ fn what_a_file_leaves_out_is_the_default_of_the_format() {
     let without = |from: &str| {
         let text = garment_text();
         assert!(text.contains(from), "{from}");
-        parse_garment_file(&text.replace(from, ""), "garment.json").expect("a readable garment")
+        parse_garment(&text.replace(from, ""), "garment.json").expect("a readable garment")
     };
     let told = "it has no key \"properties.units_in_meter\": read as centimetres";
     for left_out in [r#""units_in_meter": 100"#, ",\n     \"properties\": {\"units_in_meter\": 100}"] {
@@ -257,7 +257,7 @@ fn files_of_any_editor_are_the_same_garment() {
     ];
     for bytes in written {
         fs::write(&path, bytes).expect("a file");
-        let file = read_garment_file(&path).expect("a readable garment");
+        let file = read_garment(&path).expect("a readable garment");
         assert_eq!((file.garment, file.warnings), (read(&text), Vec::new()));
     }
     assert_eq!(read(&format!("\u{feff}{text}")), read(&text));
@@ -288,7 +288,7 @@ fn keys_that_nothing_reads_are_told_once_by_name() {
         .replace("\"stitches\"", "\"panel_order\": [\"front\", \"back\"], \"stitches\"")
         .replace("\"translation\"", "\"label\": \"body\", \"translation\"")
         .replacen('{', "{\"parameters\": {\"a\": {\"range\": [0, NaN]}}, \"parameter_order\": [], ", 1);
-    let warnings = |text: &str| parse_garment_file(text, "g.json").expect("a readable garment").warnings;
+    let warnings = |text: &str| parse_garment(text, "g.json").expect("a readable garment").warnings;
     assert_eq!(warnings(&known), [] as [&str; 0]);
     let unknown = garment_text()
         .replace("\"units_in_meter\"", "\"gravity\": 9, \"units_in_meter\"")

@@ -3,7 +3,7 @@
 use crate::support::{fixture, real_data};
 use std::fs;
 use std::path::Path;
-use toile_files::{BodyOptions, read_body, read_garment, read_garment_file};
+use toile_files::{BodyOptions, read_body, read_garment};
 use toile_scene::Curve;
 
 /// What the patterns of a folder hold, a line each.
@@ -14,7 +14,7 @@ fn patterns(folder: &Path) -> String {
         if path.extension().is_none_or(|extension| extension != "json") {
             continue;
         }
-        let garment = read_garment(&path).expect("a readable pattern");
+        let garment = read_garment(&path).expect("a readable pattern").garment;
         let edges: usize = garment.panels.iter().map(|panel| panel.edges.len()).sum();
         let edge = || garment.panels.iter().flat_map(|panel| &panel.edges);
         let curved = edge().filter(|edge| edge.curve != Curve::Straight).count();
@@ -61,7 +61,7 @@ fn the_ten_patterns_parse() {
 
 #[test]
 fn stitched_ends_lie_near_each_other() {
-    let garment = read_garment(&fixture("garments/skirt.json")).expect("a readable pattern");
+    let garment = read_garment(&fixture("garments/skirt.json")).expect("a readable pattern").garment;
     for seam in &garment.seams {
         let [a, b] = seam.sides.map(|side| {
             let panel = &garment.panels[side.panel];
@@ -118,7 +118,7 @@ fn the_dressing_pose_of_the_walk_is_the_standing_body() {
 #[ignore = "its files, each with a condition of other programs, are not part of the repository"]
 fn files_that_others_wrote_are_read_or_refused_by_their_cause() {
     let cases = real_data().join("../cases");
-    let garment = |name: &str| match read_garment_file(&cases.join(name).join("g.json")) {
+    let garment = |name: &str| match read_garment(&cases.join(name).join("g.json")) {
         Ok(file) => {
             let edges: usize = file.garment.panels.iter().map(|panel| panel.edges.len()).sum();
             let (panels, seams) = (file.garment.panels.len(), file.garment.seams.len());

@@ -17,7 +17,7 @@ fn woman(clip: &str) -> MovingMesh {
 }
 
 fn garment(name: &str) -> Garment {
-    read_garment(&fixture(&format!("garments/{name}.json"))).expect("the fixture")
+    read_garment(&fixture(&format!("garments/{name}.json"))).expect("the fixture").garment
 }
 
 fn scene(body: Body, garments: &[Garment]) -> Scene {
@@ -320,19 +320,19 @@ fn patterns_of_others_are_drawn_right_and_one_is_not() {
         .map(|entry| entry.expect("an entry").path())
         .filter(|path| path.extension().is_some_and(|e| e == "json"))
     {
-        let fit = fit(Body::Mesh(body.clone()), &[read_garment(&path).expect("a pattern")]).expect("it fits");
+        let fit = fit(Body::Mesh(body.clone()), &[read_garment(&path).expect("a pattern").garment]).expect("it fits");
         told.extend(
             fit.findings.iter().map(|finding| format!("{finding}\n")).filter(|told| told.contains("turned over")),
         );
     }
     assert_eq!(told, "");
-    let skirt = read_garment(&shared.join("cases/absolute_curv/g.json")).expect("a pattern");
+    let skirt = read_garment(&shared.join("cases/absolute_curv/g.json")).expect("a pattern").garment;
     for case in ["zup_ply", "facing_x"] {
         let scan = shared.join(format!("cases/{case}/scan.ply"));
         let body = toile_files::read_body(&scan, &BodyOptions::default()).expect("a body").mesh;
         told += &self::told(&fit(Body::Mesh(body), std::slice::from_ref(&skirt)).expect("it fits"));
     }
-    let wrong = read_garment(&shared.join("cases/wrong_winding/g.json")).expect("a pattern");
+    let wrong = read_garment(&shared.join("cases/wrong_winding/g.json")).expect("a pattern").garment;
     let scan = toile_files::read_body(&shared.join("cases/scan.ply"), &BodyOptions::default()).expect("a body").mesh;
     told += &self::told(&fit(Body::Mesh(scan), &[wrong]).expect("it fits"));
     insta::assert_snapshot!(told, @"

@@ -27,13 +27,13 @@ const REAL: [(&str, i64); 10] = [
 
 fn shipped(name: &str) -> Garment {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/garments");
-    toile_files::read_garment(&folder.join(format!("{name}.json"))).unwrap()
+    toile_files::read_garment(&folder.join(format!("{name}.json"))).unwrap().garment
 }
 
 fn real(name: &str) -> Garment {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/patterns/garmentcode");
     assert!(folder.is_dir(), "{} is not there", folder.display());
-    toile_files::read_garment(&folder.join(format!("{name}_specification.json"))).unwrap()
+    toile_files::read_garment(&folder.join(format!("{name}_specification.json"))).unwrap().garment
 }
 
 /// What garments are sewn into, a line for each spacing; each is checked.
@@ -150,7 +150,7 @@ const KEYHOLE: &str = r#"{"pattern": {"panels": {
 
 #[test]
 fn a_dart_inside_of_a_panel_is_sewn_shut() {
-    let garment = toile_files::parse_garment(KEYHOLE, "keyhole").unwrap();
+    let garment = toile_files::parse_garment(KEYHOLE, "keyhole").unwrap().garment;
     // Waist and hem; the cut and the dart are closed.
     let table = sewn_table([(garment, "keyhole", 2)], &[0.03, 0.02, 0.013, 0.008]);
     assert_eq!(table.lines().count(), 4);

@@ -4,7 +4,7 @@ use crate::{Particles, Probe};
 use toile_model::StepSettings;
 
 /// Stops each particle that the coming move would lead deeper into a body than the thickness of the cloth; one that is deeper already goes
-/// no farther. `probes` are what the particles saw in the last sweep, shape [particle_count].
+/// no farther. `probes` are what the particles saw in this step, shape [particle_count].
 pub fn keep_out(particles: &mut Particles, probes: &[Probe], settings: &StepSettings) {
     for (i, probe) in probes.iter().enumerate() {
         if !(probe.hit && particles.inverse_masses[i] > 0.0) {

@@ -1,11 +1,11 @@
 //! Contact: friction on a plate, the sphere, and which side of a map answers.
 
 use crate::support::{GRAVITY, Grid, settings};
-use glam::{DVec3, Vec3, vec2, vec3};
+use glam::{DQuat, DVec3, Vec3, vec2, vec3};
 use toile_model::{NO_CORNER, ShapeStep, StepSettings};
 use toile_reference::maps::{BodyMaps, Surface};
 use toile_reference::{Colliders, Contact, Lag, Probe, Reference, step};
-use toile_scene::{Friction, MapKind, Mesh, Rule, Shape, ShapeMotion};
+use toile_scene::{Friction, MapKind, Mesh, RigidKey, RigidMotion, Rule, Shape, ShapeMotion};
 
 /// Coulomb coefficient of the plate: it holds up to 16.7°.
 const FRICTION: f32 = 0.3;
@@ -135,6 +135,30 @@ fn a_rebound_gives_back_its_part_of_the_approach() {
     for velocity in particles.velocities {
         assert!((velocity - vec3(0.1, 0.0, 0.5)).length() < 1e-6, "{velocity}");
     }
+}
+
+/// A pinned ball stands beside a particle whose limit reaches over it. The far end is struck by another ball in the first sweep, so that the limit
+/// pulls the particle into the first ball in the second sweep, which no particle reached before.
+#[test]
+fn what_a_later_sweep_leads_into_a_shape_meets_it() {
+    let mut model = Grid { columns: 2, rows: 1, ..Grid::horizontal(2, 0.3) }.model();
+    let near = vec3(0.0, 0.0525, 0.0);
+    let far = near - vec3(0.0, 0.3 * 1.05, 0.0);
+    model.positions = vec![near, far];
+    let ball = Shape::sphere(DVec3::ZERO, 0.05);
+    // It comes from above at 3 m/s, and touches the far end at once.
+    let speed = 3.0;
+    let keys =
+        [0.0, 1.0].map(|time| RigidKey { time, translation: DVec3::NEG_Y * speed * time, rotation: DQuat::IDENTITY });
+    let beside = DVec3::new(0.0, f64::from(far.y) + 0.02 + 0.0011, 0.0);
+    let motion = ShapeMotion::Keys(RigidMotion { keys: keys.to_vec() });
+    let striker = Shape { motion, ..Shape::sphere(beside, 0.02) };
+    let settings = StepSettings { gravity: Vec3::ZERO, rule: Rule::Predictive, sweeps: 2, ..settings() };
+    let mut reference = Reference::new(&model, &settings, Colliders { maps: None, shapes: vec![ball, striker] });
+    reference.step();
+    assert!(reference.velocities()[1].y < -1.0, "it is struck: {}", reference.velocities()[1]);
+    let clearance = reference.positions()[0].y - 0.05 - settings.thickness;
+    assert!(clearance > -1e-4, "{clearance} m");
 }
 
 #[test]

@@ -70,7 +70,7 @@ fn grid(heavy: f32) -> Model {
 /// The skirt, sewn and then left alone until it is at rest; its front is so many times as heavy as its back.
 fn skirt(heavy: f32) -> Model {
     let text = include_str!("../../../../fixtures/garments/skirt.json");
-    let garment = parse_garment(text, "skirt").expect("it is whole");
+    let garment = parse_garment(text, "skirt").expect("it is whole").garment;
     let mut open = Model::from_garment(&garment, &cotton()).expect("it meshes");
     for i in open.panels[0].particles.clone() {
         open.masses[i as usize] *= heavy;
@@ -171,7 +171,7 @@ fn the_fastest_mode_grows_just_above_its_limit_and_not_below() {
 #[test]
 fn a_garment_that_collapses_gains_nothing_with_its_damping() {
     let text = include_str!("../../../../fixtures/garments/skirt.json");
-    let garment = parse_garment(text, "skirt").expect("it is whole");
+    let garment = parse_garment(text, "skirt").expect("it is whole").garment;
     let (sewn, _) = Model::from_garment(&garment, &cotton()).expect("it meshes").sewn();
     let step = at_bound(&sewn);
     let collapse = |damping: f32| energies(&sewn, &StepSettings { damping, ..step.clone() }, |_| Vec3::ZERO, 10_000);
