@@ -101,8 +101,8 @@ fn a_walk_ends_in_the_same_drape_at_any_frame_rate() {
 fn a_garment_whose_seams_stay_open_is_told_and_goes_on() {
     let mut scene = walking(&["skirt"], "apose_to_walk");
     let toile_scene::Cloth::Garment(skirt) = &mut scene.cloths[0] else { panic!("a garment") };
-    // Panels a kilometre apart do not meet in the time that they have.
-    skirt.panels[0].placement.translation.z += 1000.0;
+    // Panels ten kilometres apart do not meet in the time that they have.
+    skirt.panels[0].placement.translation.z += 10_000.0;
     let mut simulation = start(&scene);
     drive(&mut simulation, Stage::Dressed);
     let verdicts = simulation.verdicts(&gpu().queue).expect("a device");
