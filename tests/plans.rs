@@ -228,3 +228,32 @@ fn a_dispatch_of_any_size_reaches_every_item_once() {
         assert!(reached < 2 * u64::from(items) + 64, "{items} items, {x} × {y} workgroups");
     }
 }
+
+/// By hand: a further pass over the cells of 65 × 65 particles.
+#[test]
+fn a_pass_moves_what_its_items_reach() {
+    let hang = scene("hang", &[("n", "65"), ("sweeps", "1")]);
+    let model = sheet_model(&hang);
+    assert_eq!(model.levels[0].colours.len(), 4);
+    let traffic = |limit_passes: u32| {
+        let settings = StepSettings { limit_passes, ..StepSettings::new(&hang.settings, &model) };
+        Plan::new(&model, &settings, Maps::None, false).traffic(&model, &settings, &[])
+    };
+    // 32 × 32 cells of a colour with 64 × 64 particles: 40 bytes of a cluster, 16 of a place; 16 of a shift are read and written.
+    let colour = 32 * 32 * 40 + 64 * 64 * (16 + 2 * 16);
+    assert_eq!(traffic(3) - traffic(2), 4 * colour);
+}
+
+#[test]
+fn a_particle_of_fine_cloth_costs_no_more_to_move() {
+    let per_particle = |n: u32| {
+        let hang = scene("hang", &[("n", &n.to_string())]);
+        let model = sheet_model(&hang);
+        // Finer cloth has further passes, which are no matter here.
+        let settings = StepSettings { limit_passes: 2, guard_passes: 2, ..StepSettings::new(&hang.settings, &model) };
+        let bytes = Plan::new(&model, &settings, Maps::None, false).traffic(&model, &settings, &[]);
+        bytes as f64 / f64::from(n * n)
+    };
+    let [small, large] = [per_particle(129), per_particle(257)];
+    assert!((large / small - 1.0).abs() < 0.02 && large > 1000.0, "{small} and {large} bytes");
+}

@@ -1,10 +1,12 @@
 //! Errors against cost: limits, step, spacing, size.
 
 use crate::lab;
+use std::time::Duration;
 use toile_lab::StepCost;
 use toile_report::experiments::cost::{fitted_exponent, step_cost};
 use toile_report::experiments::precision::{Limited, Limiting, Scene, limited, rest_error, shape_errors};
 use toile_report::experiments::rest::RestScene;
+use toile_report::experiments::speed::{self, size_at};
 use toile_scene::Rule;
 
 fn swing_down(rule: Rule, sweeps: u32) -> Limited {
@@ -77,6 +79,30 @@ fn a_cost_is_counted_in_copies_that_the_clock_can_see() {
     let cost = StepCost { kernels: vec![("euler", 1, 0.5), ("limit_level", 16, 2.5)], state_copy: 0.25 };
     assert_eq!(cost.copies(), Some(12.0));
     assert_eq!(StepCost { state_copy: 0.0, ..cost }.copies(), None, "nothing is divided by zero");
+}
+
+#[test]
+fn a_size_is_found_between_two_that_were_measured() {
+    let points = [[32.0, 4.0], [64.0, 16.0], [128.0, 128.0]];
+    assert!((size_at(&points, 8.0).expect("between the first two") - 32.0 * 2.0_f64.sqrt()).abs() < 1e-9);
+    assert_eq!(size_at(&points, 16.0), Some(64.0));
+    assert_eq!([size_at(&points, 3.9), size_at(&points, 128.0), size_at(&points[..1], 4.0)], [None; 3]);
+}
+
+/// Cost and strain of a frame come from one run; where the time is over there is no strain, and never a zero in its place.
+#[test]
+fn speed_is_told_beside_strain() {
+    for name in speed::SCENES {
+        let speed = speed::measure(&lab(), name, 16, 30, Duration::from_secs(600)).expect("a device");
+        let [largest, p99] = speed.strain.expect("there was time");
+        assert!(p99 > 0.001 && p99 <= largest && largest < 0.08, "{name}: {speed:?}");
+        assert!(speed.frame > 0.0 && speed.kernels > 0.0 && speed.state_copy > 0.0, "{name}: {speed:?}");
+        assert!(speed.dispatches > u64::from(speed.steps) * 5 && speed.particle_count() == 256, "{name}: {speed:?}");
+        let least = speed.dispatches as f64 * speed::DISPATCH * 1e3;
+        assert!(speed.on_paper(1e12) > least && speed.on_paper(4e12) < speed.on_paper(1e12), "{name}: {speed:?}");
+        let hurried = speed::measure(&lab(), name, 16, 30, Duration::ZERO).expect("a device");
+        assert_eq!((hurried.strain, hurried.bytes), (None, speed.bytes), "{name}");
+    }
 }
 
 #[test]

@@ -22,6 +22,7 @@ mod solver;
 mod status;
 mod step_params;
 mod timing;
+mod traffic;
 mod trail;
 
 pub use error::GpuError;

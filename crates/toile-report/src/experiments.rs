@@ -7,6 +7,7 @@ pub mod parity;
 pub mod precision;
 pub mod rest;
 pub mod settings;
+pub mod speed;
 pub mod stability;
 pub mod terms;
 pub mod validation;
@@ -21,6 +22,7 @@ pub const EXPERIMENTS: &[Experiment] = &[
     hard_cases::EXPERIMENT,
     validation::EXPERIMENT,
     object_space::EXPERIMENT,
+    speed::EXPERIMENT,
     cost::EXPERIMENT,
     parity::EXPERIMENT,
     terms::EXPERIMENT,

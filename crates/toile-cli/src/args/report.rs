@@ -9,11 +9,11 @@ use toile_report::EXPERIMENTS;
 /// `toile report`.
 #[derive(Args, Debug)]
 pub struct ReportOf {
-    /// Measure less: about three minutes on two cores.
+    /// Measure less: about four minutes on two cores.
     #[arg(long)]
     pub quick: bool,
-    /// Run only this experiment; repeat it for more.
-    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(EXPERIMENTS.iter().map(|experiment| experiment.name)))]
+    /// Run only these experiments.
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = PossibleValuesParser::new(EXPERIMENTS.iter().map(|experiment| experiment.name)))]
     pub only: Vec<String>,
     /// Folder for the report.
     #[arg(long, value_name = "DIR", default_value = "report")]

@@ -68,6 +68,8 @@ struct ClothPlan {
     buffers: BTreeMap<String, u64>,
     bytes: u64,
     bytes_per_particle: f64,
+    /// What a step moves through memory.
+    traffic_per_particle: f64,
     /// Shared by both models of a garment, and not counted in `bytes`.
     map_bytes: u64,
 }
@@ -151,6 +153,7 @@ impl ClothPlan {
         let mut buffers = plan.buffer_sizes(model, settings, shapes);
         buffers.insert("indices".to_owned(), 12 * model.triangles().len() as u64);
         let bytes = buffers.values().sum();
+        let per_particle = |bytes: u64| bytes as f64 / f64::from(model.particle_count().max(1));
         Self {
             name: name.to_owned(),
             state,
@@ -161,7 +164,8 @@ impl ClothPlan {
             steps_per_frame: settings.steps_per_frame,
             step: kernels(&plan.step),
             frame: kernels(&plan.frame),
-            bytes_per_particle: bytes as f64 / f64::from(model.particle_count().max(1)),
+            bytes_per_particle: per_particle(bytes),
+            traffic_per_particle: per_particle(plan.traffic(model, settings, shapes)),
             buffers,
             bytes,
             map_bytes,
@@ -194,6 +198,7 @@ impl fmt::Display for ClothPlan {
                 writeln!(f, "    {kernel:<22} {runs:>2} runs, {dispatches:>4} dispatches, {items} items")?;
             }
         }
+        writeln!(f, "  a step moves {:.1} bytes per particle", self.traffic_per_particle)?;
         writeln!(f, "  buffers: {} bytes, {:.1} per particle", self.bytes, self.bytes_per_particle)?;
         for (name, bytes) in &self.buffers {
             writeln!(f, "    {name:<22} {bytes:>12}")?;
