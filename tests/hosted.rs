@@ -1,7 +1,6 @@
 //! A body that the host skins: it gives the maps of the same body from a file, and cloth on it goes the same way.
 
 use glam::{DQuat, DVec3, Vec3, vec3};
-use std::cell::OnceCell;
 use toile::gpu::{HostAttribute, HostMotion, HostVertices, MapSpace, MovingBody};
 use toile::{Error, Simulation};
 use toile_lab::DrawnMaps;
@@ -10,22 +9,12 @@ use toile_lab::kernels::{first_difference, vec3_words};
 use toile_model::MapBox;
 use toile_reference::maps::LayerMaps;
 use toile_scene::{Body, MapKind, Mesh, MovingMesh, RigidKey, Scene};
-use toile_workspace::Gpu;
+use toile_workspace::own_gpu as gpu;
 
 const STORAGE: wgpu::BufferUsages = wgpu::BufferUsages::STORAGE;
 const FRAME: f64 = 1.0 / 60.0;
 /// Words of a vertex of the host: something else, position, normal, velocity, the position before.
 const STRIDE: usize = 14;
-
-/// The device of this test alone. One that waits for its commands has their answers too, unless another thread of the device is handing
-/// them over just then.
-fn gpu() -> &'static Gpu {
-    thread_local! {
-        static GPU: OnceCell<&'static Gpu> = const { OnceCell::new() };
-    }
-    let open = || Box::leak(Box::new(Gpu::open(wgpu::Backends::all()).unwrap_or_else(|fault| panic!("{fault}"))));
-    GPU.with(|gpu| *gpu.get_or_init(|| open()))
-}
 
 /// The vertices of a host that keeps all of them in one buffer, among other things, with normals of some length.
 fn interleaved(mesh: &Mesh, velocities: &[Vec3], last: &[Vec3], by_velocity: bool) -> HostVertices {

@@ -5,20 +5,10 @@ use toile::files::{BodyOptions, read_moving_body};
 use toile::{Advance, Simulation};
 use toile_lab::fixtures::{fixture, garment, scene, settings};
 use toile_scene::{Body, Cloth, Mesh, MovingMesh, RigidKey, Scene};
-use toile_workspace::Gpu;
+pub use toile_workspace::own_gpu as gpu;
 
 /// Edge length of a texel of the maps [m]: these tests ask what happens, not how exactly.
 const TEXEL: f64 = 0.02;
-
-thread_local! {
-    static GPU: &'static Gpu =
-        Box::leak(Box::new(Gpu::open(wgpu::Backends::all()).unwrap_or_else(|fault| panic!("{fault}"))));
-}
-
-/// A device of this test alone: whole journeys on one device would wait for one another.
-pub fn gpu() -> &'static Gpu {
-    GPU.with(|gpu| *gpu)
-}
 
 /// Garments at 6 cm on the built-in woman, who walks by a clip.
 pub fn walking(garments: &[&str], clip: &str) -> Scene {

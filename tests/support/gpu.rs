@@ -28,6 +28,19 @@ pub fn gpu() -> &'static Gpu {
     })
 }
 
+/// The device of this test alone. One that waits for its commands has their answers too, which on a shared device another thread may be
+/// handing over just then; and whole journeys on one device would wait for one another.
+///
+/// # Panics
+/// When there is no adapter or it gives no device.
+pub fn own_gpu() -> &'static Gpu {
+    thread_local! {
+        static GPU: &'static Gpu =
+            Box::leak(Box::new(Gpu::open(wgpu::Backends::all()).unwrap_or_else(|fault| panic!("{fault}"))));
+    }
+    GPU.with(|gpu| *gpu)
+}
+
 impl Gpu {
     /// Opens an adapter of these backends.
     ///

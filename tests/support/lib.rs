@@ -6,4 +6,4 @@ mod gpu;
 
 pub use compute::Compute;
 pub use drive::{advance, arrived, finish_frame};
-pub use gpu::{Gpu, gpu, lab};
+pub use gpu::{Gpu, gpu, lab, own_gpu};

@@ -54,7 +54,7 @@ impl Settings {
     /// Most particles of a cloth: four times the 1024² grid that the step is made for.
     pub const PARTICLE_COUNT_MAX: u32 = 4 << 20;
 
-    /// The default settings for a fabric: three sweeps of hierarchical limits, Coulomb friction, particles at 1 cm, texels of 0.5 cm (D eq. 11),
+    /// The default settings for a fabric: two sweeps of hierarchical limits, Coulomb friction, particles at 1 cm, texels of 0.5 cm (D eq. 11),
     /// 60 frames per second.
     pub fn new(fabric: Fabric) -> Self {
         Self {

@@ -40,7 +40,7 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
     let steps = lab.pick(3, 5);
     let caption = format!(
         "Time of one step of a sheet of 1 m × 1 m hanging on two corners, 0.2 kg/m², springs of 20, 10 and 2 N/m, n × n particles for n \
-         from {} to {}, without limits and with three sweeps of hierarchical ones; the fastest of {steps} steps, beyond n = {LARGE} a single one. {}",
+         from {} to {}, without limits and with two sweeps of hierarchical ones; the fastest of {steps} steps, beyond n = {LARGE} a single one. {}",
         sizes[0],
         sizes[sizes.len() - 1],
         lab.place()

@@ -38,7 +38,7 @@ pub const CASES: &[Case] = &[
 
 fn run(lab: &mut Lab) -> Result<Section, LabError> {
     let caption = format!(
-        "Hard cases under the default settings (hierarchical limits, three sweeps, 60 frames per second) unless the case says otherwise. The sheet is 1 m × 1 m of \
+        "Hard cases under the default settings (hierarchical limits, two sweeps, 60 frames per second) unless the case says otherwise. The sheet is 1 m × 1 m of \
          0.2 kg/m², springs of 20, 10 and 2 N/m, threshold 5 %, 12 × 12 particles, on two held corners or free, for a quarter of a second, next to bodies for 0.4 s. {}",
         lab.place()
     );

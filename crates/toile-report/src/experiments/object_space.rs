@@ -119,7 +119,7 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
     let mesh = body()?;
     let [n, steps_max] = lab.pick([25, 1600], [49, 4800]);
     let caption = format!(
-        "A square sheet of 1 m, {n} × {n} particles, 0.2 kg/m², falls level on the head and shoulders of the built-in body ({} triangles): hierarchical limits, three sweeps, 16 steps per frame, thickness 5 mm, until \
+        "A square sheet of 1 m, {n} × {n} particles, 0.2 kg/m², falls level on the head and shoulders of the built-in body ({} triangles): hierarchical limits, two sweeps, 16 steps per frame, thickness 5 mm, until \
          the mean speed is below {REST_SPEED} m/s or {steps_max} steps are done. Image space: maps with texels of 5 mm, the papers' two sides or layers on three axes, particles and quad midpoints. Object space: the nearest face in trees of bounding boxes of torso, arms and legs, \
          particles alone, as in D §7. Both on the CPU reference, one thread; f32 for the maps, f64 for the trees. Depths are exact distances to the mesh, negative outside. False contacts touch although they are farther from the body than thickness and two texels. CPU of this machine.",
         mesh.triangles.len()

@@ -62,7 +62,7 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
     let n = lab.pick(7, 33);
     let caption = format!(
         "How far the particles of a cloth at rest move when one setting changes. Scenes: {}; {}. {n} × {n} particles of 0.2 kg/m², \
-         springs of 20, 10 and 2 N/m, threshold 5 %, hierarchical limits, 960 steps per second of three sweeps each, 60 frames per \
+         springs of 20, 10 and 2 N/m, threshold 5 %, hierarchical limits, 960 steps per second of two sweeps each, 60 frames per \
          second, damped by 20 /s until no particle is faster than 2 mm/s. {}",
         RestScene::Hammock.description(),
         RestScene::Cap.description(),

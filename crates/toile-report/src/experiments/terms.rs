@@ -20,7 +20,7 @@ fn run(lab: &mut Lab) -> Result<Section, LabError> {
     let (n, frames) = lab.pick((13, 18), (33, 90));
     let caption = format!(
         "The same scene with a term of the model and without it. Sheets of 1 m × 1 m, {n} × {n} particles, 0.2 kg/m², springs of 20, 10 and 2 \
-         N/m, threshold 5 %, hierarchical limits, three sweeps, 960 steps per second, {frames} frames of 1/60 s. hang: on two corners; \
+         N/m, threshold 5 %, hierarchical limits, two sweeps, 960 steps per second, {frames} frames of 1/60 s. hang: on two corners; \
          ball: laid on a sphere of radius 0.25 m; moving ball: on a sphere that swings 0.4 m to the side and back in 4 s, seen through \
          maps with texels of 1 cm. {}",
         lab.place()

@@ -35,7 +35,7 @@ pub(super) fn blocks(lab: &mut Lab, progress: [f64; 2]) -> Result<Vec<Block>, La
     let told: Vec<&str> = scenes.iter().map(|(_, scene, ..)| scene.description()).collect();
     let caption = format!(
         "Error of a rest shape as the mesh is refined, against that of {finest} × {finest} particles: {}. 0.2 kg/m², springs of 20, 10 and 2 \
-         N/m at every spacing, threshold 5 %, three sweeps of hierarchical limits, 960 steps per second. {}",
+         N/m at every spacing, threshold 5 %, two sweeps of hierarchical limits, 960 steps per second. {}",
         told.join("; "),
         lab.place()
     );

@@ -82,7 +82,7 @@ pub(super) fn blocks(lab: &mut Lab) -> Result<Vec<Block>, LabError> {
     let seconds = lab.pick(1.5, 2.5);
     let caption = format!(
         "Cusick's drape coefficient of the fabrics shipped: a round sample of 30 cm lies on a disc of 18 cm; the shadow of what hangs over, by that of \
-         the flat ring. Default settings (hierarchical limits, three sweeps, 16 steps per frame), after {seconds} s with a damping of 5/s; \
+         the flat ring. Default settings (hierarchical limits, two sweeps, 16 steps per frame), after {seconds} s with a damping of 5/s; \
          shadow counted in cells of 1 mm. Bands are those published for such cloth. The bending length is (B/w)^(1/3), with w the weight per area: \
          that of Peirce's cantilever. Reference on the CPU; seed {}.",
         lab.seed
