@@ -372,6 +372,10 @@ fn who_is_set_elsewhere_walks_on_in_the_same_skirt() {
     // Ten metres from the origin a place is told to a micrometre, and cloth that moves spreads that as it spreads any other nudge.
     let (way, nudge) = (dvec3(10.0, 0.0, -4.0), dvec3(1e-6, 0.0, 0.0));
     let (mut there, mut beside) = (set(way), set(nudge));
+    for (simulation, way) in [(&there, way), (&beside, nudge)] {
+        let [_, farthest] = apart(&places(&here, 0), simulation, way);
+        assert!(farthest < 2e-6, "{farthest} m from where it was set");
+    }
     for _ in 0..20 {
         for simulation in [&mut here, &mut there, &mut beside] {
             advance(simulation, FRAME);
