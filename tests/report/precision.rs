@@ -96,7 +96,7 @@ fn speed_is_told_beside_strain() {
         let speed = speed::measure(&lab(), name, 16, 30, Duration::from_secs(600)).expect("a device");
         let [largest, p99] = speed.strain.expect("there was time");
         assert!(p99 > 0.001 && p99 <= largest && largest < 0.08, "{name}: {speed:?}");
-        assert!(speed.frame > 0.0 && speed.kernels > 0.0 && speed.state_copy > 0.0, "{name}: {speed:?}");
+        assert!(speed.frame > 0.0 && speed.kernels > 0.0, "{name}: {speed:?}");
         assert!(speed.dispatches > u64::from(speed.steps) * 5 && speed.particle_count() == 256, "{name}: {speed:?}");
         let least = speed.dispatches as f64 * speed::DISPATCH * 1e3;
         assert!(speed.on_paper(1e12) > least && speed.on_paper(4e12) < speed.on_paper(1e12), "{name}: {speed:?}");

@@ -6,6 +6,7 @@ mod bending;
 mod clusters;
 mod colouring;
 pub(crate) mod digest;
+mod fewer_colours;
 mod flat_cloth;
 mod flat_spans;
 mod levels;

@@ -1,5 +1,6 @@
 //! Clusters of limits: four nodes in which up to six limits lie, so that a kernel loads and stores each node once for all of them.
 
+use crate::cloth::fewer_colours::fewer_colours;
 use crate::{Csr, NO_CORNER};
 use std::ops::Range;
 
@@ -18,7 +19,7 @@ pub(crate) fn clusters(ends: &[[u32; 2]], lengths: &[f64], node_count: usize) ->
         }
     }
     clusters.sort_unstable_by_key(|nodes| nodes.iter().copied().min());
-    let colours = colours(&clusters, node_count);
+    let colours = fewer_colours(&clusters, colours(&clusters, node_count), node_count);
     sorted(&clusters, &colours)
 }
 

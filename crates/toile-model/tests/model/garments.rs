@@ -5,7 +5,7 @@ use glam::Vec3;
 use std::fmt::Write;
 use std::path::Path;
 use toile_model::{Model, NO_CORNER};
-use toile_scene::Garment;
+use toile_scene::{Fabric, Garment, Settings};
 
 /// Name, boundary loops when sewn: hems, waist, neck, armholes.
 const SHIPPED: [(&str, i64); 5] =
@@ -154,4 +154,29 @@ fn a_dart_inside_of_a_panel_is_sewn_shut() {
     // Waist and hem; the cut and the dart are closed.
     let table = sewn_table([(garment, "keyhole", 2)], &[0.03, 0.02, 0.013, 0.008]);
     assert_eq!(table.lines().count(), 4);
+}
+
+/// A colour is a dispatch. As many are needed as clusters meet at a node; hardly any more are had, but where a level is so small that all of its
+/// clusters meet.
+#[test]
+fn levels_have_hardly_more_colours_than_they_need() {
+    for name in ["skirt", "dress", "shirt_sleeves"] {
+        let settings = Settings::new(Fabric::preset("cotton").expect("a preset"));
+        let settings = Settings { spacing: 0.03, ..settings };
+        let (model, _) = Model::from_garment(&shipped(name), &settings).expect("it meshes").sewn();
+        assert!(model.levels.len() > 3, "{name}");
+        for (index, level) in model.levels.iter().enumerate().filter(|(_, level)| level.nodes.len() > 50) {
+            let mut met = vec![0; model.positions.len() + model.coarse_particles.len()];
+            let clusters = level.colours.iter().flat_map(|colour| colour.clone());
+            for node in clusters.flat_map(|cluster| model.clusters[cluster as usize].nodes) {
+                met.get_mut(node as usize).into_iter().for_each(|count| *count += 1);
+            }
+            let [needed, count] = [met.iter().copied().max().unwrap_or(0), level.colours.len()];
+            let most = if index == 0 { needed } else { needed + 1 };
+            assert!(
+                (needed..=most).contains(&count),
+                "{name}, level {index}: {count} colours, where {needed} are needed"
+            );
+        }
+    }
 }
