@@ -32,8 +32,9 @@ impl GltfFile {
         };
         let mut json = GltfJson::read(text)?;
         gltf_extensions::check(&json.root, unread)?;
+        let fallbacks = gltf_compressed::fallbacks(&json.root);
         let mut buffers = list(&json.root, "buffers")
-            .map(|(number, buffer)| load(number, buffer, &mut blob, folder))
+            .map(|(number, buffer)| load(number, buffer, fallbacks[number], &mut blob, folder))
             .collect::<Result<Vec<_>, Found>>()?;
         gltf_compressed::decode(&mut json.root, &mut buffers)?;
         let hidden = json.hidden(unread);
@@ -287,9 +288,15 @@ fn check_channels(root: &gltf::json::Root) -> Result<(), Found> {
     Ok(())
 }
 
-/// The bytes of a buffer: the binary chunk of a GLB for the first one that names no other place.
-fn load(number: usize, buffer: &Value, blob: &mut Option<&[u8]>, folder: Option<&Path>) -> Result<Vec<u8>, Found> {
-    if gltf_compressed::is_fallback(buffer) {
+/// The bytes of a buffer: the binary chunk of a GLB for the first one that names no other place. A fallback has none.
+fn load(
+    number: usize,
+    buffer: &Value,
+    is_fallback: bool,
+    blob: &mut Option<&[u8]>,
+    folder: Option<&Path>,
+) -> Result<Vec<u8>, Found> {
+    if is_fallback {
         return Ok(Vec::new());
     }
     let what = format!("buffer {number}");
