@@ -26,7 +26,7 @@ use std::path::Path;
 use toile_scene::Mesh;
 
 /// The endings that [`read_body`] knows.
-const ENDINGS: &str = ".obj, .ply, .gltf, .glb";
+const ENDINGS: &str = ".obj, .ply, .gltf, .glb, .vrm";
 
 /// How a body file is read.
 #[derive(Clone, Debug, PartialEq)]

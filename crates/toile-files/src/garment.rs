@@ -5,7 +5,7 @@ mod garment_json;
 mod slit;
 
 use crate::error::{Fault, FileError, Found, Place, rounded};
-use crate::format;
+use crate::format::{self, GARMENT};
 use crate::garment::garment_json::{
     CurvatureJson, EdgeJson, Number, PanelJson, PropertiesJson, SideJson, StitchPart, flag,
 };
@@ -55,9 +55,8 @@ pub struct GarmentFile {
 /// itself or has a coordinate that is not finite, an edge whose curve cannot exist, a panel larger than 10 m, or a stitch
 /// to a panel or edge that does not exist.
 pub fn read_garment(path: &Path) -> Result<GarmentFile, FileError> {
-    let text = source::read_text(path)?;
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    parse(&text, &stem).map_err(|found| found.in_file(path))
+    let bytes = source::read_bytes(path)?;
+    read(&bytes, path).map_err(|found| found.in_file(path))
 }
 
 /// Reads a garment from text; `name` stands for the path in errors, and without its ending it is the garment's name.
@@ -66,8 +65,7 @@ pub fn read_garment(path: &Path) -> Result<GarmentFile, FileError> {
 ///
 /// As [`read_garment`].
 pub fn parse_garment(text: &str, name: &str) -> Result<GarmentFile, FileError> {
-    let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
-    parse(text.strip_prefix('\u{feff}').unwrap_or(text), &stem).map_err(|found| found.in_file(name))
+    read(text.as_bytes(), Path::new(name)).map_err(|found| found.in_file(name))
 }
 
 /// How the file's numbers are meant.
@@ -113,27 +111,25 @@ impl Conventions {
     }
 }
 
-fn parse(text: &str, stem: &str) -> Result<GarmentFile, Found> {
-    if text.len() > LARGEST_FILE {
+fn read(bytes: &[u8], name: &Path) -> Result<GarmentFile, Found> {
+    format::check_garment(bytes, name)?;
+    if bytes.len() > LARGEST_FILE {
         let what = format!("a garment of more than {LARGEST_FILE} bytes");
         return Err(Fault::Unsupported(what).into());
     }
-    format::check_magic(text.as_bytes())?;
+    let text = source::text(bytes)?;
     let mut unread = Unread::default();
-    let json = garment_json::read(text, &mut unread).map_err(|error| {
+    let json = garment_json::read(&text, &mut unread).map_err(|error| {
         // serde_json repeats the place at the end of its message.
         let message = error.to_string();
         let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(start, _)| start);
         if !text.trim_start().starts_with(['{', '[']) {
-            let message = "it is not JSON: a garment is GarmentCode's JSON, a file like NAME_specification.json";
-            return Found::malformed(Place::File, message);
+            return Found::malformed(Place::File, format!("it is not JSON: {GARMENT}"));
+        }
+        if message == "missing field `pattern`" {
+            return Found::malformed(Place::File, format!("it has no key \"pattern\": {GARMENT}"));
         }
         let place = Place::Column(error.line(), error.column());
-        if message == "missing field `pattern`" {
-            let message =
-                "it has no key \"pattern\": a garment is GarmentCode's JSON, a file like NAME_specification.json";
-            return Found::malformed(Place::File, message);
-        }
         Found::malformed(place, format!("the JSON is not valid: {message}"))
     })?;
     let mut warnings = Vec::new();
@@ -155,7 +151,8 @@ fn parse(text: &str, stem: &str) -> Result<GarmentFile, Found> {
     for (index, stitch) in json.pattern.stitches.iter().enumerate() {
         seams.push(convert_stitch(index, stitch, &panels, &numbers, &mut sewn)?);
     }
-    let name = stem.strip_suffix("_specification").unwrap_or(stem).to_string();
+    let stem = name.file_stem().unwrap_or_default().to_string_lossy();
+    let name = stem.strip_suffix("_specification").unwrap_or(&stem).to_string();
     Ok(GarmentFile { garment: Garment { name, panels, seams, fabric: None }, warnings })
 }
 

@@ -5,6 +5,7 @@ use crate::body::obj;
 use crate::body::soup::{Cleaned, Soup};
 use crate::body::{BodyOptions, check_height};
 use crate::error::{Fault, FileError, Found, Place};
+use crate::format;
 use crate::source;
 use crate::unread::Unread;
 use glam::{DVec3, Vec3};
@@ -61,7 +62,8 @@ pub fn read_mesh_sequence(folder: &Path, frame_rate: f64, options: &BodyOptions)
 
 fn read_soup(path: &Path, unread: &mut Unread) -> Result<Soup, FileError> {
     let bytes = source::read_bytes(path)?;
-    obj::read(&bytes, unread).map_err(|found| found.in_file(path))
+    let soup = format::of_body(&bytes, path, ".obj").and_then(|_| obj::read(&bytes, unread));
+    soup.map_err(|found| found.in_file(path))
 }
 
 fn check_same(soup: &Soup, faces: &[[u32; 3]], vertex_count: usize, first: &Path) -> Result<(), Found> {

@@ -43,7 +43,7 @@ pub fn parse_moving_body(bytes: &[u8], name: &str, options: &BodyOptions) -> Res
 
 fn read(bytes: &[u8], name: &Path, folder: Option<&Path>, options: &BodyOptions) -> Result<MovingBodyFile, Found> {
     assert!(options.metres_per_unit > 0.0, "the length of a unit is positive");
-    match format::of_body(bytes, name, ".gltf, .glb")? {
+    match format::of_body(bytes, name, ".gltf, .glb, .vrm")? {
         BodyFormat::Gltf => {}
         BodyFormat::Obj | BodyFormat::Ply => {
             let ending = name.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
