@@ -1,5 +1,6 @@
 //! Bodies from OBJ, PLY, glTF and GLB files.
 
+mod fused_floor;
 mod gltf_body;
 mod gltf_compressed;
 mod gltf_extensions;
@@ -14,6 +15,7 @@ mod obj_lines;
 mod pieces;
 mod ply;
 mod ply_header;
+mod sorting;
 mod soup;
 
 use crate::body::gltf_rig::ClipChoice;

@@ -1,6 +1,6 @@
 //! Triangles as a file gives them, and the clean mesh that is made of them.
 
-use crate::body::pieces::{self, Sorted};
+use crate::body::sorting::{self, Sorted};
 use crate::error::{Fault, Found, Place};
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
@@ -80,7 +80,7 @@ impl Soup {
             return Err(Fault::Empty(file_vertex_count).into());
         }
         warn(warnings, isolated_count(positions.len(), &triangles), "isolated vertices removed");
-        let Sorted { turned_count, left_out } = pieces::sort_out(&positions, &mut triangles);
+        let Sorted { turned_count, left_out } = sorting::sort_out(&positions, &mut triangles);
         warnings.extend(left_out);
         let renumbered = remove_isolated(&mut positions, &mut normals, &mut triangles);
         let kept: Vec<Option<u32>> = remap.iter().map(|welded| renumbered[*welded as usize]).collect();
