@@ -3,7 +3,7 @@
 use crate::body::moving_body::MovingBodyFile;
 use crate::body::obj;
 use crate::body::soup::{Cleaned, Soup};
-use crate::body::{BodyOptions, check_height};
+use crate::body::{BodyOptions, size};
 use crate::error::{Fault, FileError, Found, Place};
 use crate::format;
 use crate::source;
@@ -40,7 +40,7 @@ pub fn read_mesh_sequence(folder: &Path, frame_rate: f64, options: &BodyOptions)
     soup.normals.fill(DVec3::ZERO);
     let mut warnings: Vec<String> = Vec::new();
     let cleaned = soup.clean(options.metres_per_unit, &mut warnings).map_err(at_first)?;
-    check_height(&cleaned.mesh, options.metres_per_unit).map_err(at_first)?;
+    size::check(&cleaned.mesh, options.metres_per_unit).map_err(at_first)?;
     let mut frames = vec![[cleaned.mesh.positions.clone(), cleaned.mesh.normals.clone()]];
     let mut torn = vec![false; vertex_count];
     for path in others {

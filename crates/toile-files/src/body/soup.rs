@@ -1,5 +1,6 @@
 //! Triangles as a file gives them, and the clean mesh that is made of them.
 
+use crate::body::size;
 use crate::body::sorting::{self, Sorted};
 use crate::error::{Fault, Found, Place};
 use glam::{DVec3, Vec3};
@@ -66,6 +67,7 @@ impl Soup {
     /// Scales to metres, welds equal positions, drops what has no area or is no part of the body, turns the outside out, and
     /// gives every vertex a normal. What had to be mended is added to the warnings.
     pub fn clean(self, metres_per_unit: f64, warnings: &mut Vec<String>) -> Result<Cleaned, Found> {
+        size::check_unit(&self, metres_per_unit)?;
         let file_vertex_count = self.positions.len();
         let Welded { mut positions, mut normals, remap } = self.welded(metres_per_unit)?;
         let mut triangles: Vec<[u32; 3]> = self.triangles.iter().map(|t| t.map(|i| remap[i as usize])).collect();
