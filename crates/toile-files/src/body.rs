@@ -1,7 +1,9 @@
 //! Bodies from OBJ, PLY, glTF and GLB files.
 
+mod disjoint;
 mod fused_floor;
 mod gltf_body;
+mod gltf_checks;
 mod gltf_compressed;
 mod gltf_extensions;
 mod gltf_file;
@@ -15,6 +17,7 @@ mod obj_lines;
 mod pieces;
 mod ply;
 mod ply_header;
+mod ply_values;
 mod size;
 mod sorting;
 mod soup;

@@ -3,19 +3,18 @@
 mod crossing;
 mod garment_json;
 mod slit;
+mod stitch;
 
 use crate::error::{Fault, FileError, Found, Place, rounded};
 use crate::format::{self, GARMENT};
-use crate::garment::garment_json::{
-    CurvatureJson, EdgeJson, Number, PanelJson, PropertiesJson, SideJson, StitchPart, flag,
-};
+use crate::garment::garment_json::{CurvatureJson, EdgeJson, Number, PanelJson, PropertiesJson, flag};
 use crate::plausible::LARGEST_PANEL;
 use crate::source;
 use crate::unread::Unread;
 use glam::{DQuat, DVec2, DVec3, EulerRot};
 use std::collections::HashMap;
 use std::path::Path;
-use toile_scene::{Curve, Edge, EdgeRef, Garment, Panel, Placement, Seam};
+use toile_scene::{Curve, Edge, Garment, Panel, Placement};
 
 /// Least distance of the ends of an edge [m]. Below, it is a slip of the pattern.
 const SHORTEST_EDGE: f64 = 1e-6;
@@ -149,7 +148,7 @@ fn read(bytes: &[u8], name: &Path) -> Result<GarmentFile, Found> {
     let mut seams = Vec::new();
     let mut sewn = HashMap::new();
     for (index, stitch) in json.pattern.stitches.iter().enumerate() {
-        seams.push(convert_stitch(index, stitch, &panels, &numbers, &mut sewn)?);
+        seams.push(stitch::convert(index, stitch, &panels, &numbers, &mut sewn)?);
     }
     let stem = name.file_stem().unwrap_or_default().to_string_lossy();
     let name = stem.strip_suffix("_specification").unwrap_or(&stem).to_string();
@@ -304,56 +303,4 @@ fn check_size(panel: &Panel, units_in_meter: f64) -> Result<(), Found> {
         return Err(Found::at(Place::Panel(panel.name.clone()), fault));
     }
     Ok(())
-}
-
-/// `numbers` finds a panel by its name; `sewn` remembers which stitch took an edge.
-fn convert_stitch(
-    index: usize,
-    stitch: &[StitchPart],
-    panels: &[Panel],
-    numbers: &HashMap<&str, usize>,
-    sewn: &mut HashMap<EdgeRef, usize>,
-) -> Result<Seam, Found> {
-    let malformed = |message: &str| Found::malformed(Place::Stitch(index), message);
-    let (first, second, right_wrong) = match stitch {
-        [StitchPart::Side(first), StitchPart::Side(second)] => (first, second, false),
-        [StitchPart::Side(first), StitchPart::Side(second), StitchPart::Flag(flag)] => {
-            if flag != "right_wrong" {
-                return Err(malformed(&format!("its third entry \"{flag}\" is not \"right_wrong\"")));
-            }
-            (first, second, true)
-        }
-        _ => {
-            return Err(malformed("it must name two edges, and may add \"right_wrong\""));
-        }
-    };
-    let side = |side: &SideJson| {
-        let Some(panel) = numbers.get(side.panel.as_str()).copied() else {
-            let known = panels.iter().map(|panel| panel.name.clone()).collect();
-            let fault = Fault::Unknown { what: "panel", name: side.panel.clone(), known };
-            return Err(Found::at(Place::Stitch(index), fault));
-        };
-        let count = panels[panel].edges.len();
-        match usize::try_from(side.edge).ok().filter(|edge| *edge < count) {
-            Some(edge) => Ok(EdgeRef { panel, edge }),
-            None => {
-                let message =
-                    format!("panel \"{}\" has no edge {}: its edges are 0 to {}", side.panel, side.edge, count - 1);
-                Err(malformed(&message))
-            }
-        }
-    };
-    let sides = [side(first)?, side(second)?];
-    if sides[0] == sides[1] {
-        let message = format!("edge {} of panel \"{}\" is stitched to itself", first.edge, first.panel);
-        return Err(malformed(&message));
-    }
-    for (side, written) in sides.iter().zip([first, second]) {
-        if let Some(known) = sewn.insert(*side, index) {
-            let message =
-                format!("edge {} of panel \"{}\" is already sewn by stitch {known}", written.edge, written.panel);
-            return Err(malformed(&message));
-        }
-    }
-    Ok(Seam { sides, right_wrong })
 }

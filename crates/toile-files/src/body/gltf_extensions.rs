@@ -1,7 +1,7 @@
 //! The extensions of glTF: what is read, what does not touch the shape, and what is refused by name.
 
 use crate::error::{Found, Place};
-use crate::unread::Unread;
+use crate::unread::{Unread, shortened};
 use serde_json::Value;
 use std::collections::BTreeSet;
 
@@ -151,7 +151,7 @@ pub(crate) fn check(root: &Value, unread: &mut Unread) -> Result<(), Found> {
             Some(Use::Refused(advice)) => advice,
             None => "export it without it",
         };
-        return Err(refusal("the file", &shortened(&name), advice));
+        return Err(refusal("the file", shortened(&name), advice));
     }
     for name in listed("extensionsUsed") {
         if use_of(&name).is_none() {
@@ -177,10 +177,6 @@ fn refusal(what: &str, name: &str, advice: &str) -> Found {
 /// Whether the extension is one whose absence changes no shape.
 pub(crate) fn is_known(name: &str) -> bool {
     use_of(name).is_some()
-}
-
-fn shortened(name: &str) -> String {
-    name[..name.floor_char_boundary(60)].to_owned()
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! The pieces of a mesh: what hangs together by edges that two triangles share, and how large it is.
 
+use crate::body::disjoint::Disjoint;
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
 
@@ -161,28 +162,18 @@ pub(crate) fn measure(positions: &[Vec3], triangles: &[[u32; 3]], pieces: &Piece
 
 /// Length of the longest of the rims of a piece [m].
 fn longest(positions: &[Vec3], rims: &[(u32, [u32; 2])]) -> f64 {
-    let mut numbers: HashMap<u32, usize> = HashMap::new();
+    let mut numbers: HashMap<u32, u32> = HashMap::new();
     let mut next = |vertex: u32| {
-        let count = numbers.len();
+        let count = numbers.len() as u32;
         *numbers.entry(vertex).or_insert(count)
     };
-    let sides: Vec<[usize; 2]> = rims.iter().map(|(_, side)| side.map(&mut next)).collect();
-    let mut roots: Vec<usize> = (0..numbers.len()).collect();
-    let find = |roots: &mut [usize], mut at: usize| {
-        while roots[at] != at {
-            roots[at] = roots[roots[at]];
-            at = roots[at];
-        }
-        at
-    };
-    for [a, b] in &sides {
-        let [a, b] = [find(&mut roots, *a), find(&mut roots, *b)];
-        roots[a.max(b)] = a.min(b);
-    }
-    let mut lengths = vec![0.0; roots.len()];
+    let sides: Vec<[u32; 2]> = rims.iter().map(|(_, side)| side.map(&mut next)).collect();
+    let mut sets = Disjoint::of(numbers.len());
+    sides.iter().for_each(|[a, b]| sets.join(*a, *b));
+    let mut lengths = vec![0.0; numbers.len()];
     for ([a, _], (_, side)) in sides.iter().zip(rims) {
         let [start, end] = side.map(|vertex| positions[vertex as usize].as_dvec3());
-        lengths[find(&mut roots, *a)] += start.distance(end);
+        lengths[sets.smallest(*a) as usize] += start.distance(end);
     }
     lengths.into_iter().fold(0.0, f64::max)
 }

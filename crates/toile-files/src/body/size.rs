@@ -1,5 +1,6 @@
 //! Whether a body has the size of a person in the declared unit.
 
+use crate::body::disjoint::Disjoint;
 use crate::body::soup::Soup;
 use crate::error::{Fault, Found, rounded};
 use crate::plausible::{HEIGHTS, WIDTH_MAX};
@@ -43,25 +44,16 @@ struct Part {
 }
 
 fn parts(soup: &Soup, metres_per_unit: f64) -> Vec<Part> {
-    let mut roots: Vec<u32> = (0..soup.positions.len() as u32).collect();
-    let find = |roots: &mut [u32], mut at: u32| {
-        while roots[at as usize] != at {
-            roots[at as usize] = roots[roots[at as usize] as usize];
-            at = roots[at as usize];
-        }
-        at
-    };
+    let mut sets = Disjoint::of(soup.positions.len());
     for [a, b, c] in &soup.triangles {
-        for other in [*b, *c] {
-            let [a, b] = [find(&mut roots, *a), find(&mut roots, other)];
-            roots[a.max(b) as usize] = a.min(b);
-        }
+        sets.join(*a, *b);
+        sets.join(*a, *c);
     }
     let mut numbers = HashMap::new();
     let mut parts: Vec<Part> = Vec::new();
     let mut last = (u32::MAX, 0);
     for triangle in &soup.triangles {
-        let root = find(&mut roots, triangle[0]);
+        let root = sets.smallest(triangle[0]);
         // Triangles of a part mostly follow each other.
         if last.0 != root {
             last = (root, *numbers.entry(root).or_insert(parts.len()));
