@@ -105,17 +105,9 @@ impl<'a> Scan<'a> {
         let measures = measure(self.positions, &rest, &pieces);
         let solids = (0u32..).zip(&measures).filter(|(_, measure)| !measure.is_sheet());
         let (body, measure) = solids.max_by(|(_, a), (_, b)| a.area.total_cmp(&b.area))?;
-        let mut is_body = vec![false; self.triangles.len()];
-        for (face, piece) in upper.iter().zip(&pieces.of_triangle) {
-            is_body[face.number] = *piece == body;
-        }
-        let ends = |across: u32| across == NONE || !is_body[(across & !AGAINST) as usize];
-        let is_inside = |across: u32| across != NONE && is_floor[(across & !AGAINST) as usize];
-        let rim: f64 = lower.iter().map(|face| self.sides(face, |across| ends(across) && !is_inside(across))).sum();
         let [low, high] = bounds(&lower);
         let length = measure.length();
-        let stands = rim * rim > SHEET_RIM * layer.area
-            && measure.area > LEAST_AREA * length * length
+        let stands = measure.area > LEAST_AREA * length * length
             && layer.area > SHEET_AREA * length * length
             && (measure.low - low).max(high - measure.high).max_element() > BEYOND * length;
         // What of a rough floor rises above the cut is no part of the body.
@@ -156,13 +148,6 @@ impl<'a> Scan<'a> {
         let deviation = mean(&|height| (height - rise).powi(2)).sqrt();
         let top = centre + rise + (3.0 * deviation).clamp(CUT[0] * size, CUT[1] * size);
         (area > SHEET_AREA * size * size && top.is_finite()).then_some(Layer { area, top, height })
-    }
-
-    /// Length of those sides of a face that have such a triangle across [m].
-    fn sides(&self, face: &Face, is: impl Fn(u32) -> bool) -> f64 {
-        let [a, b, c] = face.corners;
-        let lengths = [a.distance(b), b.distance(c), c.distance(a)];
-        lengths.iter().zip(self.across[face.number]).filter(|(_, across)| is(*across)).map(|(length, _)| length).sum()
     }
 }
 
