@@ -122,7 +122,10 @@ fn a_floor_may_be_rough_and_rise_to_the_feet_and_to_a_wall() {
 fn what_only_looks_like_a_floor_stays() {
     let wide = |profile: &[[f32; 2]]| turned(profile, |p| p);
     let from = |first: usize| BODY[first..].iter().copied();
-    let cases: [(&str, Mesh); 7] = [
+    let cases: [(&str, Mesh); 8] = [
+        ("a gown that is closed below and open above", {
+            wide(&[[0.0, 0.0], [0.0, 0.2], [0.0, 0.4], [0.0, 0.6], [0.9, 0.25], [1.2, 0.22], [1.6, 0.22]])
+        }),
         ("open soles", wide(&BODY)),
         ("a gown that is closed below", {
             let gown = [[0.0, 0.0], [0.0, 0.3], [0.0, 0.6], [0.01, 0.6], [0.9, 0.2]].into_iter().chain(from(5));
