@@ -1,6 +1,9 @@
 //! Bodies from OBJ, PLY, glTF and GLB files.
 
+mod disjoint;
+mod fused_floor;
 mod gltf_body;
+mod gltf_checks;
 mod gltf_compressed;
 mod gltf_extensions;
 mod gltf_file;
@@ -14,19 +17,21 @@ mod obj_lines;
 mod pieces;
 mod ply;
 mod ply_header;
+mod ply_values;
+mod size;
+mod sorting;
 mod soup;
 
 use crate::body::gltf_rig::ClipChoice;
-use crate::error::{Fault, FileError, Found, Place, rounded};
+use crate::error::{FileError, Found, Place};
 use crate::format::{self, BodyFormat};
-use crate::plausible::{HEIGHTS, WIDTH_MAX};
 use crate::source;
 use crate::unread::Unread;
 use std::path::Path;
 use toile_scene::Mesh;
 
 /// The endings that [`read_body`] knows.
-const ENDINGS: &str = ".obj, .ply, .gltf, .glb";
+const ENDINGS: &str = ".obj, .ply, .gltf, .glb, .vrm";
 
 /// How a body file is read.
 #[derive(Clone, Debug, PartialEq)]
@@ -103,38 +108,6 @@ fn read(bytes: &[u8], name: &Path, folder: Option<&Path>, options: &BodyOptions)
     };
     warnings.extend(unread.sentences());
     let mesh = soup.clean(options.metres_per_unit, &mut warnings)?.mesh;
-    check_height(&mesh, options.metres_per_unit)?;
+    size::check(&mesh, options.metres_per_unit)?;
     Ok(BodyFile { mesh, warnings })
-}
-
-/// Refuses a body that is no person's size. It need not stand: then its longest side is its height.
-pub(crate) fn check_height(mesh: &Mesh, metres_per_unit: f64) -> Result<(), Found> {
-    let [low, high] = mesh.bounds().expect("a clean mesh has vertices");
-    let size = high.as_dvec3() - low.as_dvec3();
-    let height = size.y;
-    let plausible = |height: f64| (HEIGHTS[0]..=HEIGHTS[1]).contains(&height);
-    if plausible(height) {
-        let width = size.x.max(size.z);
-        if width > WIDTH_MAX {
-            return Err(Fault::BodyWidth { width: rounded(width) }.into());
-        }
-        return Ok(());
-    }
-    let height = height.max(size.max_element());
-    if plausible(height) {
-        return Ok(());
-    }
-    let typical = 1.7;
-    let unit = [("mm", 0.001), ("cm", 0.01), ("dm", 0.1), ("m", 1.0), ("in", 0.0254)]
-        .map(|(unit, metres)| (unit, height / metres_per_unit * metres))
-        .into_iter()
-        .filter(|(_, height)| plausible(*height))
-        .min_by(|a, b| (a.1 / typical).ln().abs().total_cmp(&(b.1 / typical).ln().abs()));
-    let advice = match unit {
-        Some((unit, height)) => {
-            format!("give {unit} as its unit if it should be {} m", rounded(height))
-        }
-        None => "no unit from mm to m makes it a body's size".into(),
-    };
-    Err(Fault::BodyUnits { height: rounded(height), advice }.into())
 }

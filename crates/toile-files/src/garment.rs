@@ -3,19 +3,18 @@
 mod crossing;
 mod garment_json;
 mod slit;
+mod stitch;
 
 use crate::error::{Fault, FileError, Found, Place, rounded};
-use crate::format;
-use crate::garment::garment_json::{
-    CurvatureJson, EdgeJson, Number, PanelJson, PropertiesJson, SideJson, StitchPart, flag,
-};
+use crate::format::{self, GARMENT};
+use crate::garment::garment_json::{CurvatureJson, EdgeJson, Number, PanelJson, PropertiesJson, flag};
 use crate::plausible::LARGEST_PANEL;
 use crate::source;
 use crate::unread::Unread;
 use glam::{DQuat, DVec2, DVec3, EulerRot};
 use std::collections::HashMap;
 use std::path::Path;
-use toile_scene::{Curve, Edge, EdgeRef, Garment, Panel, Placement, Seam};
+use toile_scene::{Curve, Edge, Garment, Panel, Placement};
 
 /// Least distance of the ends of an edge [m]. Below, it is a slip of the pattern.
 const SHORTEST_EDGE: f64 = 1e-6;
@@ -55,9 +54,8 @@ pub struct GarmentFile {
 /// itself or has a coordinate that is not finite, an edge whose curve cannot exist, a panel larger than 10 m, or a stitch
 /// to a panel or edge that does not exist.
 pub fn read_garment(path: &Path) -> Result<GarmentFile, FileError> {
-    let text = source::read_text(path)?;
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    parse(&text, &stem).map_err(|found| found.in_file(path))
+    let bytes = source::read_bytes(path)?;
+    read(&bytes, path).map_err(|found| found.in_file(path))
 }
 
 /// Reads a garment from text; `name` stands for the path in errors, and without its ending it is the garment's name.
@@ -66,8 +64,7 @@ pub fn read_garment(path: &Path) -> Result<GarmentFile, FileError> {
 ///
 /// As [`read_garment`].
 pub fn parse_garment(text: &str, name: &str) -> Result<GarmentFile, FileError> {
-    let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
-    parse(text.strip_prefix('\u{feff}').unwrap_or(text), &stem).map_err(|found| found.in_file(name))
+    read(text.as_bytes(), Path::new(name)).map_err(|found| found.in_file(name))
 }
 
 /// How the file's numbers are meant.
@@ -113,27 +110,25 @@ impl Conventions {
     }
 }
 
-fn parse(text: &str, stem: &str) -> Result<GarmentFile, Found> {
-    if text.len() > LARGEST_FILE {
+fn read(bytes: &[u8], name: &Path) -> Result<GarmentFile, Found> {
+    format::check_garment(bytes, name)?;
+    if bytes.len() > LARGEST_FILE {
         let what = format!("a garment of more than {LARGEST_FILE} bytes");
         return Err(Fault::Unsupported(what).into());
     }
-    format::check_magic(text.as_bytes())?;
+    let text = source::text(bytes)?;
     let mut unread = Unread::default();
-    let json = garment_json::read(text, &mut unread).map_err(|error| {
+    let json = garment_json::read(&text, &mut unread).map_err(|error| {
         // serde_json repeats the place at the end of its message.
         let message = error.to_string();
         let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(start, _)| start);
         if !text.trim_start().starts_with(['{', '[']) {
-            let message = "it is not JSON: a garment is GarmentCode's JSON, a file like NAME_specification.json";
-            return Found::malformed(Place::File, message);
+            return Found::malformed(Place::File, format!("it is not JSON: {GARMENT}"));
+        }
+        if message == "missing field `pattern`" {
+            return Found::malformed(Place::File, format!("it has no key \"pattern\": {GARMENT}"));
         }
         let place = Place::Column(error.line(), error.column());
-        if message == "missing field `pattern`" {
-            let message =
-                "it has no key \"pattern\": a garment is GarmentCode's JSON, a file like NAME_specification.json";
-            return Found::malformed(Place::File, message);
-        }
         Found::malformed(place, format!("the JSON is not valid: {message}"))
     })?;
     let mut warnings = Vec::new();
@@ -153,9 +148,10 @@ fn parse(text: &str, stem: &str) -> Result<GarmentFile, Found> {
     let mut seams = Vec::new();
     let mut sewn = HashMap::new();
     for (index, stitch) in json.pattern.stitches.iter().enumerate() {
-        seams.push(convert_stitch(index, stitch, &panels, &numbers, &mut sewn)?);
+        seams.push(stitch::convert(index, stitch, &panels, &numbers, &mut sewn)?);
     }
-    let name = stem.strip_suffix("_specification").unwrap_or(stem).to_string();
+    let stem = name.file_stem().unwrap_or_default().to_string_lossy();
+    let name = stem.strip_suffix("_specification").unwrap_or(&stem).to_string();
     Ok(GarmentFile { garment: Garment { name, panels, seams, fabric: None }, warnings })
 }
 
@@ -307,56 +303,4 @@ fn check_size(panel: &Panel, units_in_meter: f64) -> Result<(), Found> {
         return Err(Found::at(Place::Panel(panel.name.clone()), fault));
     }
     Ok(())
-}
-
-/// `numbers` finds a panel by its name; `sewn` remembers which stitch took an edge.
-fn convert_stitch(
-    index: usize,
-    stitch: &[StitchPart],
-    panels: &[Panel],
-    numbers: &HashMap<&str, usize>,
-    sewn: &mut HashMap<EdgeRef, usize>,
-) -> Result<Seam, Found> {
-    let malformed = |message: &str| Found::malformed(Place::Stitch(index), message);
-    let (first, second, right_wrong) = match stitch {
-        [StitchPart::Side(first), StitchPart::Side(second)] => (first, second, false),
-        [StitchPart::Side(first), StitchPart::Side(second), StitchPart::Flag(flag)] => {
-            if flag != "right_wrong" {
-                return Err(malformed(&format!("its third entry \"{flag}\" is not \"right_wrong\"")));
-            }
-            (first, second, true)
-        }
-        _ => {
-            return Err(malformed("it must name two edges, and may add \"right_wrong\""));
-        }
-    };
-    let side = |side: &SideJson| {
-        let Some(panel) = numbers.get(side.panel.as_str()).copied() else {
-            let known = panels.iter().map(|panel| panel.name.clone()).collect();
-            let fault = Fault::Unknown { what: "panel", name: side.panel.clone(), known };
-            return Err(Found::at(Place::Stitch(index), fault));
-        };
-        let count = panels[panel].edges.len();
-        match usize::try_from(side.edge).ok().filter(|edge| *edge < count) {
-            Some(edge) => Ok(EdgeRef { panel, edge }),
-            None => {
-                let message =
-                    format!("panel \"{}\" has no edge {}: its edges are 0 to {}", side.panel, side.edge, count - 1);
-                Err(malformed(&message))
-            }
-        }
-    };
-    let sides = [side(first)?, side(second)?];
-    if sides[0] == sides[1] {
-        let message = format!("edge {} of panel \"{}\" is stitched to itself", first.edge, first.panel);
-        return Err(malformed(&message));
-    }
-    for (side, written) in sides.iter().zip([first, second]) {
-        if let Some(known) = sewn.insert(*side, index) {
-            let message =
-                format!("edge {} of panel \"{}\" is already sewn by stitch {known}", written.edge, written.panel);
-            return Err(malformed(&message));
-        }
-    }
-    Ok(Seam { sides, right_wrong })
 }

@@ -2,6 +2,7 @@
 
 mod body;
 mod error;
+mod foreign;
 mod format;
 mod garment;
 mod out;

@@ -5,6 +5,11 @@ use crate::error::Place;
 /// So many kinds are told by name. Damaged files have any number.
 const MOST_KINDS: usize = 16;
 
+/// The beginning of a name, for a sentence. Those of damaged files can have any length.
+pub(crate) fn shortened(name: &str) -> &str {
+    &name[..name.floor_char_boundary(60)]
+}
+
 /// What a file has that is not read.
 #[derive(Debug, Default)]
 pub(crate) struct Unread {

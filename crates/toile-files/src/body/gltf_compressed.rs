@@ -26,11 +26,32 @@ fn extension<'a>(value: &'a Value, name: &str) -> Option<&'a Value> {
     value.get("extensions")?.get(name)
 }
 
-/// Whether a buffer is only for programs that know no compression.
-pub(crate) fn is_fallback(buffer: &Value) -> bool {
-    MESHOPT.iter().any(|name| {
-        extension(buffer, name).and_then(|fallback| fallback.get("fallback")?.as_bool()).unwrap_or_default()
-    })
+/// Of each buffer, whether it is only for programs that know no compression: so it says, or it has no place of its own and
+/// all that lies in it is compressed.
+pub(crate) fn fallbacks(root: &Value) -> Vec<bool> {
+    let is_tagged = |buffer: &Value| {
+        let tag = MESHOPT.iter().find_map(|name| extension(buffer, name)?.get("fallback")?.as_bool());
+        tag.unwrap_or_default()
+    };
+    let count = list(root, "buffers").count();
+    let (mut is_named, mut is_needed) = (vec![false; count], vec![false; count]);
+    let number_in = |object: &Value| {
+        let number = object.get("buffer").and_then(Value::as_u64).and_then(|number| usize::try_from(number).ok());
+        number.filter(|number| *number < count)
+    };
+    for (_, view) in list(root, "bufferViews") {
+        let packed = MESHOPT.iter().find_map(|name| extension(view, name));
+        if let Some(number) = number_in(view) {
+            is_named[number] = true;
+        }
+        if let Some(number) = number_in(packed.unwrap_or(view)) {
+            is_needed[number] = true;
+        }
+    }
+    let is_fallback = |(number, buffer): (usize, &Value)| {
+        is_tagged(buffer) || (buffer.get("uri").is_none() && is_named[number] && !is_needed[number])
+    };
+    list(root, "buffers").map(is_fallback).collect()
 }
 
 /// Decodes what is compressed. Indices that lead nowhere are left to the checks of the whole file.

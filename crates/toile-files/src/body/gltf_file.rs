@@ -1,13 +1,12 @@
 //! A glTF or GLB file with its buffers, and the numbers of its accessors.
 
 use crate::body::gltf_json::{GltfJson, list};
-use crate::body::{gltf_compressed, gltf_extensions};
+use crate::body::{gltf_checks, gltf_compressed, gltf_extensions};
 use crate::error::{Fault, Found, Place};
 use crate::unread::Unread;
 use base64::Engine;
 use gltf::accessor::sparse::IndexType;
 use gltf::accessor::{DataType, Dimensions};
-use gltf::json::validation::{Checked, Error, Validate};
 use serde_json::Value;
 use std::borrow::Cow;
 use std::path::Path;
@@ -32,15 +31,14 @@ impl GltfFile {
         };
         let mut json = GltfJson::read(text)?;
         gltf_extensions::check(&json.root, unread)?;
+        let fallbacks = gltf_compressed::fallbacks(&json.root);
         let mut buffers = list(&json.root, "buffers")
-            .map(|(number, buffer)| load(number, buffer, &mut blob, folder))
+            .map(|(number, buffer)| load(number, buffer, fallbacks[number], &mut blob, folder))
             .collect::<Result<Vec<_>, Found>>()?;
         gltf_compressed::decode(&mut json.root, &mut buffers)?;
         let hidden = json.hidden(unread);
         let root = json.typed(unread)?;
-        check_positions(&root)?;
-        check_channels(&root)?;
-        check_root(&root)?;
+        gltf_checks::check(&root)?;
         Ok(Self { document: gltf::Document::from_json_without_validation(root), hidden, buffers })
     }
 
@@ -230,66 +228,15 @@ fn chunks<'a>(bytes: &'a [u8], unread: &mut Unread) -> Result<(&'a [u8], Option<
     }
 }
 
-/// The checks of the crate, without which it would panic. What says nothing about the shape, or is allowed by the format, is no
-/// fault: bounds of positions, accessors of zeros, primitives without positions.
-fn check_root(root: &gltf::json::Root) -> Result<(), Found> {
-    let mut fault = None;
-    root.validate(root, gltf::json::Path::new, &mut |path, error| {
-        let allowed = error != Error::IndexOutOfBounds && {
-            let path = path().to_string();
-            let may_be_missing = path.starts_with("accessors") && path.ends_with("].bufferView");
-            let ends = ["[\"POSITION\"]", ".min", ".max"];
-            may_be_missing || ends.iter().any(|end| path.ends_with(end))
-        };
-        if fault.is_none() && !allowed {
-            fault = Some((path().to_string(), error));
-        }
-    });
-    match fault {
-        Some((path, error)) => Err(Found::malformed(Place::Key(path), format!("the glTF is not valid: {error}"))),
-        None => Ok(()),
-    }
-}
-
-/// The validation of the crate indexes the accessors of positions without a look at their number, and would panic.
-fn check_positions(root: &gltf::json::Root) -> Result<(), Found> {
-    let count = root.accessors.len();
-    let positions = Checked::Valid(gltf::Semantic::Positions);
-    for (number, mesh) in root.meshes.iter().enumerate() {
-        for primitive in &mesh.primitives {
-            let accessor = primitive.attributes.get(&positions).map(|accessor| accessor.value());
-            if let Some(accessor) = accessor.filter(|accessor| *accessor >= count) {
-                let index = i64::try_from(accessor).unwrap_or(i64::MAX);
-                let place = Place::Key(format!("meshes[{number}].primitives.attributes.POSITION"));
-                return Err(Found::at(place, Fault::OutOfRange { what: "accessor", index, count }));
-            }
-        }
-    }
-    Ok(())
-}
-
-/// The validation of the crate passes over what channels of clips move, and reading it would panic.
-fn check_channels(root: &gltf::json::Root) -> Result<(), Found> {
-    let count = root.nodes.len();
-    for (clip, animation) in root.animations.iter().enumerate() {
-        for (channel, target) in animation.channels.iter().map(|channel| &channel.target).enumerate() {
-            let place = |key: &str| Place::Key(format!("animations[{clip}].channels[{channel}].target.{key}"));
-            if matches!(target.path, Checked::Invalid) {
-                let message = "a clip moves \"translation\", \"rotation\", \"scale\" or \"weights\"";
-                return Err(Found::malformed(place("path"), message));
-            }
-            if target.node.value() >= count {
-                let index = i64::try_from(target.node.value()).unwrap_or(i64::MAX);
-                return Err(Found::at(place("node"), Fault::OutOfRange { what: "node", index, count }));
-            }
-        }
-    }
-    Ok(())
-}
-
-/// The bytes of a buffer: the binary chunk of a GLB for the first one that names no other place.
-fn load(number: usize, buffer: &Value, blob: &mut Option<&[u8]>, folder: Option<&Path>) -> Result<Vec<u8>, Found> {
-    if gltf_compressed::is_fallback(buffer) {
+/// The bytes of a buffer: the binary chunk of a GLB for the first one that names no other place. A fallback has none.
+fn load(
+    number: usize,
+    buffer: &Value,
+    is_fallback: bool,
+    blob: &mut Option<&[u8]>,
+    folder: Option<&Path>,
+) -> Result<Vec<u8>, Found> {
+    if is_fallback {
         return Ok(Vec::new());
     }
     let what = format!("buffer {number}");

@@ -3,7 +3,7 @@
 use crate::body::gltf_extensions;
 use crate::error::{Fault, Found, Place};
 use crate::source;
-use crate::unread::Unread;
+use crate::unread::{Unread, shortened};
 use gltf::json;
 use serde_json::{Map, Value, json as value};
 use std::borrow::Cow;
@@ -237,8 +237,7 @@ fn move_pointers(root: &mut Value, unread: &mut Unread) {
             if let Some((node, path)) = moved {
                 *target = value!({ "node": node, "path": path });
             } else if !LOOKS.iter().any(|start| pointer.starts_with(start)) {
-                let pointer = &pointer[..pointer.floor_char_boundary(60)];
-                unread.note(&format!("the motion of \"{pointer}\""), || place);
+                unread.note(&format!("the motion of \"{}\"", shortened(&pointer)), || place);
             }
             moved.is_some()
         });
@@ -252,8 +251,7 @@ fn strip(value: &mut Value, kind: &'static Kind, path: &mut Vec<String>, unread:
     if let Some(extensions) = object.remove("extensions") {
         for name in extensions.as_object().into_iter().flat_map(Map::keys) {
             if !gltf_extensions::is_known(name) {
-                let name = &name[..name.floor_char_boundary(60)];
-                unread.note(&format!("the extension {name}"), || place(path));
+                unread.note(&format!("the extension {}", shortened(name)), || place(path));
             }
         }
     }
@@ -261,8 +259,7 @@ fn strip(value: &mut Value, kind: &'static Kind, path: &mut Vec<String>, unread:
         object.remove(key);
     }
     for key in object.keys().filter(|key| !kind.keys.contains(&key.as_str()) && !COMMON.contains(&key.as_str())) {
-        let key = &key[..key.floor_char_boundary(60)];
-        unread.note(&format!("the key \"{key}\" of a {}", kind.name), || place(path));
+        unread.note(&format!("the key \"{}\" of a {}", shortened(key), kind.name), || place(path));
     }
     let targets = object.get_mut("targets").and_then(Value::as_array_mut).map(|targets| targets.iter_mut());
     let targets: Vec<&mut Value> = targets.into_iter().flatten().collect();
@@ -299,8 +296,7 @@ fn keep_shape(attributes: &mut Value, place: &Place, unread: &mut Unread) {
     attributes.retain(|name, _| {
         // What begins with a line is a program's own.
         if !starts(name, &SHAPE) && !starts(name, &SHAPELESS) && !name.starts_with('_') {
-            let name = &name[..name.floor_char_boundary(60)];
-            unread.note(&format!("the attribute \"{name}\""), || place.clone());
+            unread.note(&format!("the attribute \"{}\"", shortened(name)), || place.clone());
         }
         starts(name, &SHAPE)
     });

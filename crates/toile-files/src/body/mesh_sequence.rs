@@ -3,8 +3,9 @@
 use crate::body::moving_body::MovingBodyFile;
 use crate::body::obj;
 use crate::body::soup::{Cleaned, Soup};
-use crate::body::{BodyOptions, check_height};
+use crate::body::{BodyOptions, size};
 use crate::error::{Fault, FileError, Found, Place};
+use crate::format;
 use crate::source;
 use crate::unread::Unread;
 use glam::{DVec3, Vec3};
@@ -39,7 +40,7 @@ pub fn read_mesh_sequence(folder: &Path, frame_rate: f64, options: &BodyOptions)
     soup.normals.fill(DVec3::ZERO);
     let mut warnings: Vec<String> = Vec::new();
     let cleaned = soup.clean(options.metres_per_unit, &mut warnings).map_err(at_first)?;
-    check_height(&cleaned.mesh, options.metres_per_unit).map_err(at_first)?;
+    size::check(&cleaned.mesh, options.metres_per_unit).map_err(at_first)?;
     let mut frames = vec![[cleaned.mesh.positions.clone(), cleaned.mesh.normals.clone()]];
     let mut torn = vec![false; vertex_count];
     for path in others {
@@ -61,7 +62,8 @@ pub fn read_mesh_sequence(folder: &Path, frame_rate: f64, options: &BodyOptions)
 
 fn read_soup(path: &Path, unread: &mut Unread) -> Result<Soup, FileError> {
     let bytes = source::read_bytes(path)?;
-    obj::read(&bytes, unread).map_err(|found| found.in_file(path))
+    let soup = format::of_body(&bytes, path, ".obj").and_then(|_| obj::read(&bytes, unread));
+    soup.map_err(|found| found.in_file(path))
 }
 
 fn check_same(soup: &Soup, faces: &[[u32; 3]], vertex_count: usize, first: &Path) -> Result<(), Found> {

@@ -2,7 +2,7 @@
 
 use crate::body::gltf_body;
 use crate::body::gltf_rig::ClipChoice;
-use crate::body::{BodyOptions, check_height};
+use crate::body::{BodyOptions, size};
 use crate::error::{Fault, FileError, Found};
 use crate::format::{self, BodyFormat};
 use crate::source;
@@ -43,7 +43,7 @@ pub fn parse_moving_body(bytes: &[u8], name: &str, options: &BodyOptions) -> Res
 
 fn read(bytes: &[u8], name: &Path, folder: Option<&Path>, options: &BodyOptions) -> Result<MovingBodyFile, Found> {
     assert!(options.metres_per_unit > 0.0, "the length of a unit is positive");
-    match format::of_body(bytes, name, ".gltf, .glb")? {
+    match format::of_body(bytes, name, ".gltf, .glb, .vrm")? {
         BodyFormat::Gltf => {}
         BodyFormat::Obj | BodyFormat::Ply => {
             let ending = name.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
@@ -56,7 +56,7 @@ fn read(bytes: &[u8], name: &Path, folder: Option<&Path>, options: &BodyOptions)
     let mut surface = gltf_body::read(bytes, folder, choice, 0.0, options.metres_per_unit, &mut unread)?;
     let mut warnings: Vec<String> = unread.sentences().collect();
     let cleaned = std::mem::take(&mut surface.soup).clean(options.metres_per_unit, &mut warnings)?;
-    check_height(&cleaned.mesh, options.metres_per_unit)?;
+    size::check(&cleaned.mesh, options.metres_per_unit)?;
     let torn = surface.torn_count(&cleaned);
     if torn > 0 {
         warnings.push(format!("vertices that follow another one of the same place, which hangs differently: {torn}"));

@@ -1,11 +1,11 @@
 //! PLY, ASCII and binary: the elements `vertex`, `face` and `tristrips`.
 
-use crate::body::number::{no_number, number};
-use crate::body::ply_header::{Element, Encoding, Header, Property, Scalar};
+use crate::body::ply_header::{Element, Header, Property};
+use crate::body::ply_values::Values;
 use crate::body::soup::Soup;
-use crate::error::{Fault, Found, Place};
+use crate::error::{Found, Place};
 use crate::source;
-use crate::unread::Unread;
+use crate::unread::{Unread, shortened};
 use glam::DVec3;
 
 const POSITION_AND_NORMAL: [&str; 6] = ["x", "y", "z", "nx", "ny", "nz"];
@@ -59,7 +59,7 @@ const MOST_NAMES: usize = 8;
 pub(crate) fn read(bytes: &[u8], unread: &mut Unread) -> Result<Soup, Found> {
     let bytes = &*source::utf8(bytes);
     let header = Header::read(bytes)?;
-    let mut values = Values { bytes, at: header.length, line: header.lines, encoding: header.encoding };
+    let mut values = Values::after(&header, bytes);
     let mut soup = Soup::default();
     for element in &header.elements {
         values.check_declared(element)?;
@@ -106,11 +106,6 @@ fn note(element: &Element, unread: &mut Unread) {
         let properties = if names.len() == 1 { "property" } else { "properties" };
         unread.note(&format!("the {properties} {}{others} of {name}", told.join(", ")), || Place::File);
     }
-}
-
-/// Names of damaged files can have any length.
-fn shortened(name: &str) -> &str {
-    &name[..name.floor_char_boundary(40)]
 }
 
 fn read_vertices(element: &Element, values: &mut Values, soup: &mut Soup) -> Result<(), Found> {
@@ -241,106 +236,4 @@ fn pass_over(element: &Element, values: &mut Values) -> Result<(), Found> {
         }
     }
     Ok(())
-}
-
-/// The numbers after the header, one after another.
-struct Values<'a> {
-    bytes: &'a [u8],
-    at: usize,
-    /// Number of the line at `at`, counted from 1; only ASCII files have lines.
-    line: usize,
-    encoding: Encoding,
-}
-
-impl Values<'_> {
-    fn left(&self) -> usize {
-        self.bytes.len() - self.at
-    }
-
-    fn place(&self) -> Place {
-        match self.encoding {
-            Encoding::Ascii => Place::Line(self.line),
-            Encoding::LittleEndian | Encoding::BigEndian => Place::Byte(self.at),
-        }
-    }
-
-    fn truncated(&self, what: String, needed: u128) -> Found {
-        Found::at(self.place(), Fault::Truncated { what, needed, available: self.left() })
-    }
-
-    /// Refuses a declared count that the rest of the file cannot hold, before anything is allocated for it.
-    fn check_declared(&self, element: &Element) -> Result<(), Found> {
-        let row: usize = element.properties.iter().map(|p| self.least_size(p.list_count.unwrap_or(p.scalar))).sum();
-        // The last number of an ASCII file needs no space behind it.
-        let slack = usize::from(matches!(self.encoding, Encoding::Ascii));
-        let needed = (element.count as u128 * row as u128).saturating_sub(slack as u128);
-        if needed > self.left() as u128 {
-            let what = format!("element {} with {} rows", element.name, element.count);
-            return Err(self.truncated(what, needed));
-        }
-        Ok(())
-    }
-
-    /// Least number of bytes of a number in the file.
-    fn least_size(&self, scalar: Scalar) -> usize {
-        match self.encoding {
-            Encoding::Ascii => 2,
-            Encoding::LittleEndian | Encoding::BigEndian => scalar.size(),
-        }
-    }
-
-    fn list_length(&mut self, count: Scalar, property: &Property) -> Result<usize, Found> {
-        let length = self.next(count)?;
-        if length < 0.0 || length.fract() != 0.0 || length.is_nan() {
-            let message = format!("{length} is not a length of the list \"{}\"", property.name);
-            return Err(Found::malformed(self.place(), message));
-        }
-        let needed = (length as u128).saturating_mul(self.least_size(property.scalar) as u128).saturating_sub(1);
-        if needed > self.left() as u128 {
-            return Err(self.truncated(format!("a list of {length} numbers"), needed));
-        }
-        Ok(length as usize)
-    }
-
-    fn next(&mut self, scalar: Scalar) -> Result<f64, Found> {
-        match self.encoding {
-            Encoding::Ascii => self.next_word(),
-            Encoding::LittleEndian | Encoding::BigEndian => {
-                let size = scalar.size();
-                let Some(bytes) = self.bytes.get(self.at..self.at + size) else {
-                    return Err(self.truncated("the next number".into(), size as u128));
-                };
-                let mut little = [0; 8];
-                little[..size].copy_from_slice(bytes);
-                if matches!(self.encoding, Encoding::BigEndian) {
-                    little[..size].reverse();
-                }
-                self.at += size;
-                Ok(scalar.value(little))
-            }
-        }
-    }
-
-    fn pass_spaces(&mut self) {
-        while let Some(byte) = self.bytes.get(self.at).filter(|byte| byte.is_ascii_whitespace()) {
-            let ends = *byte == b'\n' || (*byte == b'\r' && self.bytes.get(self.at + 1) != Some(&b'\n'));
-            self.line += usize::from(ends);
-            self.at += 1;
-        }
-    }
-
-    fn next_word(&mut self) -> Result<f64, Found> {
-        self.pass_spaces();
-        let rest = &self.bytes[self.at..];
-        let length = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
-        if length == 0 {
-            return Err(self.truncated("the next number".into(), 1));
-        }
-        let word = &rest[..length];
-        let Some(value) = number(word) else {
-            return Err(Found::malformed(self.place(), no_number(word)));
-        };
-        self.at += length;
-        Ok(value)
-    }
 }

@@ -1,6 +1,7 @@
 //! Triangles as a file gives them, and the clean mesh that is made of them.
 
-use crate::body::pieces::{self, Sorted};
+use crate::body::size;
+use crate::body::sorting::{self, Sorted};
 use crate::error::{Fault, Found, Place};
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
@@ -66,6 +67,7 @@ impl Soup {
     /// Scales to metres, welds equal positions, drops what has no area or is no part of the body, turns the outside out, and
     /// gives every vertex a normal. What had to be mended is added to the warnings.
     pub fn clean(self, metres_per_unit: f64, warnings: &mut Vec<String>) -> Result<Cleaned, Found> {
+        size::check_unit(&self, metres_per_unit)?;
         let file_vertex_count = self.positions.len();
         let Welded { mut positions, mut normals, remap } = self.welded(metres_per_unit)?;
         let mut triangles: Vec<[u32; 3]> = self.triangles.iter().map(|t| t.map(|i| remap[i as usize])).collect();
@@ -80,7 +82,7 @@ impl Soup {
             return Err(Fault::Empty(file_vertex_count).into());
         }
         warn(warnings, isolated_count(positions.len(), &triangles), "isolated vertices removed");
-        let Sorted { turned_count, left_out } = pieces::sort_out(&positions, &mut triangles);
+        let Sorted { turned_count, left_out } = sorting::sort_out(&positions, &mut triangles);
         warnings.extend(left_out);
         let renumbered = remove_isolated(&mut positions, &mut normals, &mut triangles);
         let kept: Vec<Option<u32>> = remap.iter().map(|welded| renumbered[*welded as usize]).collect();

@@ -463,3 +463,31 @@ fn the_floor_that_a_scan_stands_on_is_told_and_does_not_turn_it() {
         assert_eq!(turned.warnings[1], "triangles that faced inward turned over: 216");
     }
 }
+
+#[test]
+fn what_a_glance_tells_is_told_before_what_takes_long() {
+    let mesh = ellipsoid();
+    // Each has a fault in its first number, too, or none of its numbers at all.
+    let ply = String::from_utf8_lossy(&ply_bytes(&mesh, false)[..200]).replace("vertex 110", "vertex 110000000");
+    let glb = |json: &str| {
+        let json = format!("{json}{}", " ".repeat(json.len().next_multiple_of(4) - json.len()));
+        let sizes = [2, 20 + json.len() as u32, json.len() as u32].map(u32::to_le_bytes);
+        [b"glTF".as_slice(), &sizes.concat(), b"JSON", json.as_bytes()].concat()
+    };
+    let nothing =
+        r#""buffers": [{ "byteLength": 400000000 }], "bufferViews": [{ "buffer": 0, "byteLength": 400000000 }]"#;
+    let told = [
+        refusal(ply, "a.ply"),
+        refusal(&glb("{}")[..18], "a.glb"),
+        refusal(glb(&format!(r#"{{ "asset": {{ "version": "1.0" }}, {nothing} }}"#)), "a.glb"),
+        refusal(glb(&format!(r#"{{ "extensionsRequired": ["EXT_mesh_polygon"], {nothing} }}"#)), "a.glb"),
+        refusal([b"PXR-USDC".as_slice(), obj_text(&mesh).as_bytes()].concat(), "a.obj"),
+    ];
+    insta::assert_snapshot!(told.join("\n"), @r#"
+    a.ply, byte 198: element vertex with 110000000 rows needs 1430000000 bytes, but the file has only 14 left: it is truncated or damaged
+    a.glb, byte 0: the GLB file by its header needs 24 bytes, but the file has only 18 left: it is truncated or damaged
+    a.glb, key "asset.version": it is glTF 1.0: export it as glTF 2.0
+    a.glb: the file needs the extension EXT_mesh_polygon, which is not read: export triangles
+    a.obj: it is USD, which is not read: export the body as GLB from the program that wrote it, or import it into Blender and export glTF 2.0
+    "#);
+}

@@ -1,6 +1,6 @@
 //! glTF bodies whose numbers are compressed: they are the same bodies.
 
-use crate::gltf_bodies::{animated, embedded};
+use crate::gltf_bodies::{animated, embedded, glb};
 use crate::support::ellipsoid;
 use draco_core::{
     DataType, EncoderBuffer, EncoderOptions, FaceIndex, GeometryAttributeType, MeshEncoder, PointAttribute, PointIndex,
@@ -173,6 +173,19 @@ pub fn meshopt_gltfs() -> Vec<(Value, Vec<u8>, f32)> {
 fn what_meshopt_compresses_is_the_same_body() {
     for (root, bytes, distance) in meshopt_gltfs() {
         assert_same(&read(root, &bytes), &ellipsoid(), distance);
+    }
+}
+
+#[test]
+fn the_place_of_what_is_compressed_need_not_exist_nor_say_so() {
+    for (mut root, bytes, distance) in meshopt_gltfs() {
+        root["buffers"][1].as_object_mut().expect("a buffer").retain(|key, _| key == "byteLength");
+        let body = parse_body(&glb(&root, &bytes, b' ', &[]), "a.glb", &BodyOptions::default());
+        assert_same(&body.expect("a readable body").mesh, &ellipsoid(), distance);
+        // A view that needs it as it stands is told what is missing.
+        root["bufferViews"].as_array_mut().expect("views").push(json!({ "buffer": 1, "byteLength": 12 }));
+        let refused = parse_body(&glb(&root, &bytes, b' ', &[]), "a.glb", &BodyOptions::default());
+        assert_eq!(refused.expect_err("a refusal").to_string(), "a.glb: buffer 1 is not in the file");
     }
 }
 

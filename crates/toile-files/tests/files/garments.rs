@@ -184,7 +184,7 @@ fn every_fault_names_panel_and_edge() {
     g.json, key "properties.normalize_panel_translation": "maybe" is not known; there is: true, false
     g.json, panel "front", edge 3: a second outline begins after this edge, and a panel has one: draw a hole as a cut from the rim, an edge in to the hole and the same edge back, or split the panel through the hole
     g.json: it has no key "pattern": a garment is GarmentCode's JSON, a file like NAME_specification.json
-    g.json: it is not JSON: a garment is GarmentCode's JSON, a file like NAME_specification.json
+    g.json: it is SVG, which is not read: a garment is GarmentCode's JSON, a file like NAME_specification.json
     g.json: it is not JSON: a garment is GarmentCode's JSON, a file like NAME_specification.json
     g.json: the garment has no panel
     g.json, line 1, column 2: the JSON is not valid: invalid length 0, expected a garment with "pattern" and "properties"

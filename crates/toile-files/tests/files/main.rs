@@ -3,6 +3,7 @@
 mod bodies;
 mod broken;
 mod compressed;
+mod floors;
 mod fuzz;
 mod garbage;
 mod garments;

@@ -304,7 +304,7 @@ fn what_cannot_move_is_refused() {
     a.gltf, key "animations[0].channels[1].target.node": node 7 does not exist: there are 2
     a.gltf: the clip "move" is 1000000000 s long, and clips are at most 3600 s: cut it
     a.obj: the motion of a .obj file, which has none (a .gltf or .glb file can have clips), cannot be read
-    a.stl: it is STL, which is not read: export the body as GLB, PLY or OBJ from the program that wrote it
+    a.stl: by its first bytes it is an OBJ file: name it .obj
     "#);
 }
 
