@@ -3,9 +3,9 @@
 use glam::{Vec3, vec3};
 use toile_gpu::{BodyMaps, Kernel, MapSpace, MapsFault, Surface};
 use toile_lab::DrawnMaps;
-use toile_lab::fixtures::{body, settings};
+use toile_lab::fixtures::{body, free_particle, settings};
 use toile_lab::shapes::without_triangles;
-use toile_model::{MapBox, Model, StepSettings};
+use toile_model::{MapBox, StepSettings};
 use toile_reference::maps::{self, LayerMaps, draw_layers};
 use toile_reference::step::sample_body_maps;
 use toile_reference::{ExactDistance, Lag};
@@ -207,7 +207,7 @@ fn errors(kind: MapKind, mesh: &Mesh) -> [f64; 2] {
     let surface = maps::Surface { mesh, thickness: 0.0, velocities: None, open: false };
     let maps = maps::BodyMaps::around(kind, &[surface], TEXEL);
     let exact = ExactDistance::new(mesh);
-    let step = StepSettings { thickness: 0.0, ..StepSettings::new(&settings(0.03), &Model::default()) };
+    let step = StepSettings { thickness: 0.0, ..StepSettings::new(&settings(0.03), &free_particle()) };
     let points: Vec<Vec3> = mesh
         .triangles
         .iter()

@@ -2,11 +2,12 @@
 
 use super::input::{Input, Posed};
 use super::seeded_levels::{BESIDE, levels};
+use crate::fixtures::free_particle;
 use crate::{DrawnMaps, Gpu, Random};
 use glam::{DVec3, Mat4, Quat, Vec3, Vec4, dvec3, vec3};
 use toile::gpu::{GpuError, MapSpace, Surface};
 use toile::model::{
-    Attachment, Csr, Hold, Limit, Link, MapBox, Model, NO_CORNER, PinTarget, SeamPair, ShapeKind, ShapeStep,
+    Arrays, Attachment, Csr, Hold, Limit, Link, MapBox, NO_CORNER, PinTarget, SeamPair, ShapeKind, ShapeStep,
     StepSettings,
 };
 use toile::scene::{
@@ -125,7 +126,7 @@ impl Seeds {
             quad_winds: (0..counts.quads).map(|_| random.vector(0.02)).collect(),
             forces: (0..counts.particles).map(|i| force(random, i, &contacts[i as usize])).collect(),
             pulls: pulls(&mut Random::new(!self.seed ^ u64::from(items) ^ 1), counts.particles),
-            model: Model {
+            model: Arrays {
                 positions: particles.positions.clone(),
                 masses: particles.masses.clone(),
                 links: links(random, counts.particles),
@@ -142,7 +143,7 @@ impl Seeds {
                 holds,
                 held_particles,
                 quads,
-                ..Model::default()
+                ..Arrays::default()
             },
             span,
             nodes: levels.nodes,
@@ -302,8 +303,8 @@ fn polish_state(kernel: Kernel, variant: Variant) -> PolishState {
 }
 
 fn step_settings(variant: Variant) -> StepSettings {
-    let base =
-        StepSettings::new(&Settings::new(Fabric::preset("cotton").expect("cotton is a preset")), &Model::default());
+    let cotton = Fabric::preset("cotton").expect("cotton is a preset");
+    let base = StepSettings::new(&Settings::new(cotton), &free_particle());
     let base = StepSettings {
         dt: 1.0 / 700.0,
         damping: 0.7,

@@ -1,6 +1,6 @@
 //! Contact: friction on a plate, the sphere, and which side of a map answers.
 
-use crate::support::{GRAVITY, Grid, settings};
+use crate::support::{GRAVITY, Grid, changed, settings};
 use glam::{DQuat, DVec3, Vec3, vec2, vec3};
 use toile_model::{NO_CORNER, ShapeStep, StepSettings};
 use toile_reference::maps::{BodyMaps, Surface};
@@ -28,10 +28,8 @@ fn slide(maps: &BodyMaps, degrees: f32, law: Friction) -> (f32, f32, f32) {
         rule: Rule::Predictive,
         ..settings()
     };
-    let mut model = Grid { down: Vec3::Y, ..Grid::horizontal(5, 0.02) }.model();
-    for position in &mut model.positions {
-        position.z = 0.0;
-    }
+    let model = Grid { down: Vec3::Y, ..Grid::horizontal(5, 0.02) }.model();
+    let model = changed(model, |model| model.positions.iter_mut().for_each(|position| position.z = 0.0));
     let start = model.positions[12].x;
     let mut reference = Reference::new(&model, &settings, Colliders { maps: Some(maps.clone()), shapes: Vec::new() });
     let mut off = 0.0_f32;
@@ -121,10 +119,8 @@ fn friction_counts_a_pressure_up_to_its_bound() {
 fn a_rebound_gives_back_its_part_of_the_approach() {
     let maps = plate();
     let settings = StepSettings { thickness: 0.0, gravity: Vec3::ZERO, reflection: 0.5, friction: 0.0, ..settings() };
-    let mut model = Grid { down: Vec3::Y, ..Grid::horizontal(2, 0.02) }.model();
-    for position in &mut model.positions {
-        position.z = 0.0005;
-    }
+    let model = Grid { down: Vec3::Y, ..Grid::horizontal(2, 0.02) }.model();
+    let model = changed(model, |model| model.positions.iter_mut().for_each(|position| position.z = 0.0005));
     let mut probes =
         step::sample_body_maps(&model.positions, &[vec3(0.1, 0.0, -1.0); 4], &maps, Lag::default(), &settings);
     let mut particles = toile_reference::Particles::new(&model);
@@ -141,10 +137,10 @@ fn a_rebound_gives_back_its_part_of_the_approach() {
 /// pulls the particle into the first ball in the second sweep, which no particle reached before.
 #[test]
 fn what_a_later_sweep_leads_into_a_shape_meets_it() {
-    let mut model = Grid { columns: 2, rows: 1, ..Grid::horizontal(2, 0.3) }.model();
+    let model = Grid { columns: 2, rows: 1, ..Grid::horizontal(2, 0.3) }.model();
     let near = vec3(0.0, 0.0525, 0.0);
     let far = near - vec3(0.0, 0.3 * 1.05, 0.0);
-    model.positions = vec![near, far];
+    let model = changed(model, |model| model.positions = vec![near, far]);
     let ball = Shape::sphere(DVec3::ZERO, 0.05);
     // It comes from above at 3 m/s, and touches the far end at once.
     let speed = 3.0;
@@ -322,8 +318,7 @@ fn maps_are_read_where_they_were_drawn() {
 
 #[test]
 fn a_contact_remembers_the_surface_it_touched() {
-    let mut model = Grid::horizontal(2, 0.02).model();
-    model.inverse_masses[3] = 0.0;
+    let model = changed(Grid::horizontal(2, 0.02).model(), |model| model.inverse_masses[3] = 0.0);
     let mut particles = toile_reference::Particles::new(&model);
     let velocity = vec3(0.1, 0.2, 0.3);
     let mut probes = [Probe { normal: Vec3::Y, distance: 0.0, velocity, hit: true }; 4];
