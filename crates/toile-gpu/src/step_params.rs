@@ -7,6 +7,7 @@ use toile_scene::{Friction, Wind};
 
 /// How many there are of what the kernels go over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Counts {
     /// Particles.
     pub particles: u32,
