@@ -49,6 +49,9 @@ pub enum Error {
         /// How far [m].
         outside: f32,
     },
+    /// What another simulation has dressed is not of this one, or its body stands elsewhere.
+    #[error("the cloth cannot be put on: {0}")]
+    PutOn(String),
     /// A saved state is not one of this simulation.
     #[error("the saved state cannot be restored: {0}")]
     State(String),

@@ -18,6 +18,7 @@ mod layer;
 mod outfit;
 mod pins;
 mod pose;
+mod put_on;
 mod simulation;
 mod stage;
 mod state;
