@@ -175,6 +175,8 @@ encode! {
         kind: shape.kind as u32,
         spin: shape.spin,
         axis: shape.axis,
+        right: shape.turn[0],
+        up: shape.turn[1],
     }
     |side_box: SideBox| SideBox {
         origin_x: side_box.origin_x,

@@ -95,6 +95,11 @@ impl Shape {
                 OutOfRange::check(of("length"), 2.0 * half_axis.length(), &SIZES, "m")?;
             }
             Form::Plane { normal } => OutOfRange::check(of("normal"), normal.length(), &UNIT, "")?,
+            Form::Box { half_size, rotation, radius } => {
+                check_vector(&of("size"), 2.0 * half_size, &SIZES, "m")?;
+                OutOfRange::check(of("rotation"), rotation.length(), &UNIT, "")?;
+                OutOfRange::check(of("radius"), radius, &(0.0..=half_size.min_element()), "m")?;
+            }
         }
         match &self.motion {
             ShapeMotion::Still => Ok(()),
@@ -245,6 +250,8 @@ mod tests {
             said(&|scene| sheet(scene, &|sheet| sheet.columns = 1)),
             said(&|scene| sheet(scene, &|sheet| sheet.pins[0].row = 3)),
             said(&|scene| scene.bodies[0] = Body::Shape(Shape::sphere(DVec3::ZERO, -1.0))),
+            said(&|scene| scene.bodies[0] = Body::Shape(Shape::cuboid(DVec3::ZERO, DVec3::new(1.0, 0.2, 1.0), 0.11))),
+            said(&|scene| scene.bodies[0] = Body::Shape(Shape::cuboid(DVec3::ZERO, DVec3::new(1.0, 0.0, 1.0), 0.0))),
             said(&|scene| sheet(scene, &|sheet| sheet.down = DVec3::ZERO)),
             said(&|scene| scene.settings.wind = Some(Wind::new(DVec3::Y * 101.0))),
             said(&|scene| scene.bodies[1] = Body::Mesh(Mesh::cuboid(Vec3::ZERO, Vec3::X * f32::NAN))),
@@ -282,6 +289,8 @@ mod tests {
                 "sheet flag: columns is 1 and must be 2 to 2097152",
                 "sheet flag: row of a pin is 3 and must be 0 to 2",
                 "sphere.radius is -1 and must be 0.001 to 1000 m",
+                "box.radius is 0.11 and must be 0 to 0.1 m",
+                "box.size.y is 0 and must be 0.001 to 1000 m",
                 "sheet flag: down is 0 and must be 0.999 to 1.001",
                 "wind.velocity.y is 101 and must be -100 to 100 m/s",
                 "body 1: vertex 0.x is NaN and must be -1000000 to 1000000 m",

@@ -106,7 +106,7 @@ impl Seeds {
                 Domain::Workgroup => 64,
                 _ => items,
             },
-            shapes: shapes(),
+            shapes: shapes(kernel),
             after_maps: variant != Variant::Weightless,
             lag: Lag::of(3, 8, settings.dt),
             sides: sides.clone(),
@@ -227,7 +227,7 @@ fn particle_quads(random: &mut Random, counts: &Counts) -> Csr<u32> {
 
 /// Spheres: one alone, two that mirror each other, and four in one place that move differently; a capsule and a plane. Of those that are
 /// equally near now an earlier one answers, now a later one.
-fn shapes() -> Vec<ShapeStep> {
+fn shapes(kernel: Kernel) -> Vec<ShapeStep> {
     let sphere = ShapeStep {
         kind: ShapeKind::Sphere,
         centre: vec3(0.1, 0.0, -0.05),
@@ -235,6 +235,7 @@ fn shapes() -> Vec<ShapeStep> {
         velocity: vec3(0.5, 0.0, 0.2),
         spin: vec3(0.3, -1.0, 2.0),
         axis: Vec3::ZERO,
+        turn: [Vec3::X, Vec3::Y],
     };
     let mirrored = [1.0, -1.0].map(|side| ShapeStep {
         centre: vec3(MIRROR.x + side * 0.125, MIRROR.y, MIRROR.z),
@@ -256,6 +257,7 @@ fn shapes() -> Vec<ShapeStep> {
         velocity: vec3(0.2, -0.4, 0.1),
         spin: vec3(-2.0, 1.0, 3.0),
         axis: vec3(0.15, 0.1, -0.2),
+        ..sphere
     };
     let plane = ShapeStep {
         kind: ShapeKind::Plane,
@@ -264,8 +266,21 @@ fn shapes() -> Vec<ShapeStep> {
         velocity: vec3(0.3, 0.1, -0.2),
         spin: vec3(0.1, 0.4, -0.2),
         axis: vec3(0.1, 1.0, -0.15).normalize(),
+        ..sphere
     };
-    [[sphere].as_slice(), &mirrored, &alike, &[capsule, plane]].concat()
+    let turned = glam::Quat::from_axis_angle(vec3(0.6, 0.0, 0.8), 0.7);
+    let rounded = ShapeStep {
+        kind: ShapeKind::Box,
+        centre: vec3(-0.3, -0.2, 0.1),
+        radius: 0.05,
+        velocity: vec3(-0.3, 0.2, 0.4),
+        spin: vec3(1.5, -2.0, 0.7),
+        axis: vec3(0.16, 0.1, 0.2),
+        turn: [turned * Vec3::X, turned * Vec3::Y],
+    };
+    let others = [[sphere].as_slice(), &mirrored, &alike, &[capsule, plane]].concat();
+    // Points are moved to shapes by their number, and those of other kernels stay.
+    if kernel == Kernel::SampleShapes { [others, vec![rounded]].concat() } else { others }
 }
 
 fn counts(domain: Domain, items: u32) -> Counts {

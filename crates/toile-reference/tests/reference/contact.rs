@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3, Vec3, vec2, vec3};
 use toile_model::{NO_CORNER, ShapeStep, StepSettings};
 use toile_reference::maps::{BodyMaps, Surface};
 use toile_reference::{Colliders, Contact, Lag, Probe, Reference, step};
-use toile_scene::{Friction, MapKind, Mesh, RigidKey, RigidMotion, Rule, Shape, ShapeMotion};
+use toile_scene::{Form, Friction, MapKind, Mesh, RigidKey, RigidMotion, Rule, Shape, ShapeMotion};
 
 /// Coulomb coefficient of the plate: it holds up to 16.7°.
 const FRICTION: f32 = 0.3;
@@ -262,6 +262,110 @@ fn capsule_error(swept: bool) -> f32 {
 fn a_fast_capsule_meets_points_where_it_first_touches_them() {
     assert!(capsule_error(true) < 1e-3, "{}", capsule_error(true));
     assert!(capsule_error(false) > 0.3, "without the test of the whole way: {}", capsule_error(false));
+}
+
+/// A box that is turned, with edges of this radius [m], whose upmost corner or edge is at about this height.
+fn turned_box(radius: f64, motion: ShapeMotion) -> Shape {
+    let rotation = DQuat::from_rotation_z(0.7) * DQuat::from_rotation_x(0.5);
+    let form = Form::Box { half_size: DVec3::new(0.2, 0.12, 0.25), rotation, radius };
+    Shape { form, centre: DVec3::new(0.0, -0.35, 0.0), motion }
+}
+
+/// By how much [m] the planes that a box tells of points around it are off its exact distance, within and outside.
+fn box_error(shape: &Shape, thickness: f32) -> f64 {
+    let settings = StepSettings { thickness, swept: false, ..settings() };
+    let told = ShapeStep::of(shape, 0, &settings);
+    let places = (0..4000).map(|k| {
+        let place = |k: u32, base: u32| {
+            (0..12)
+                .fold((0.0, 1.0 / base as f64, k), |(sum, part, k), _| {
+                    (sum + part * (k % base) as f64, part / base as f64, k / base)
+                })
+                .0
+        };
+        shape.centre + (DVec3::new(place(k, 2), place(k, 3), place(k, 5)) - 0.5) * 1.2
+    });
+    let mut worst: f64 = 0.0;
+    for place in places {
+        let mut probes = [Probe::default()];
+        step::sample_shapes(&mut probes, &[place.as_vec3()], &[Vec3::ZERO], &[told], &settings);
+        let [probe] = probes;
+        assert!(probe.hit && (probe.normal.length() - 1.0).abs() < 1e-5, "{probe:?}");
+        worst = worst.max((f64::from(probe.distance + thickness) + shape.depth(place, 0.0)).abs());
+        // Along the normal the distance falls to nothing: it is the plane that touches the box.
+        if probe.distance > 0.0 {
+            let foot = place - probe.normal.as_dvec3() * f64::from(probe.distance + thickness);
+            worst = worst.max(shape.depth(foot, 0.0).abs());
+        }
+    }
+    worst
+}
+
+#[test]
+fn a_box_is_as_far_away_as_it_is() {
+    for radius in [0.0, 0.05, 0.12] {
+        for thickness in [0.0, 0.004] {
+            let error = box_error(&turned_box(radius, ShapeMotion::Still), thickness);
+            assert!(error < 1e-6, "{error} m of a box with edges of {radius} m");
+        }
+    }
+    let mut step = ShapeStep::of(&turned_box(0.05, ShapeMotion::Still), 0, &settings());
+    step.centre = Vec3::NAN;
+    let mut probes = [Probe::default()];
+    step::sample_shapes(&mut probes, &[Vec3::ZERO], &[Vec3::ZERO], &[step], &settings());
+    assert!(!probes[0].hit, "a box that is nowhere answers nobody");
+}
+
+/// How far [m] from the surface of a box the planes touch it that points tell which pass through it within one step.
+fn entry_error(swept: bool) -> f64 {
+    let settings = StepSettings { dt: 1.0 / 60.0, swept, thickness: 0.0, ..settings() };
+    let shape = turned_box(0.04, ShapeMotion::Still);
+    let told = ShapeStep::of(&shape, 0, &settings);
+    let mut worst: f64 = 0.0;
+    for k in 0..200 {
+        let angle = 0.37 * f64::from(k);
+        let out = DVec3::new(angle.cos(), (1.7 * angle).sin(), (2.3 * angle).cos()).normalize();
+        let start = shape.centre + out * 0.6;
+        let aim = shape.centre + DVec3::new((3.1 * angle).sin(), (0.9 * angle).cos(), (5.3 * angle).sin()) * 0.06;
+        // Most of the way through, and out again on the other side.
+        let way = (aim - start) * 2.2;
+        let mut probes = [Probe::default()];
+        let velocity = (way * 60.0).as_vec3();
+        step::sample_shapes(&mut probes, &[start.as_vec3()], &[velocity], &[told], &settings);
+        // Where the way meets the plane, and where it meets the box.
+        let [probe] = probes;
+        let share = -f64::from(probe.distance) / probe.normal.as_dvec3().dot(way);
+        worst = worst.max(shape.depth(start + way * share, 0.0).abs());
+    }
+    worst
+}
+
+#[test]
+fn a_fast_point_meets_a_box_where_it_first_touches_it() {
+    assert!(entry_error(true) < 1e-4, "{} m", entry_error(true));
+    assert!(entry_error(false) > 0.03, "without the test of the whole way: {} m", entry_error(false));
+}
+
+#[test]
+fn a_sheet_dropped_on_a_box_stays_outside_also_where_it_turns() {
+    let key = |time: f64| RigidKey { time, translation: DVec3::ZERO, rotation: DQuat::from_rotation_y(1.5 * time) };
+    let turning = ShapeMotion::Keys(RigidMotion { keys: vec![key(0.0), key(1.0), key(2.0)] });
+    for (motion, radius) in [(ShapeMotion::Still, 0.0), (ShapeMotion::Still, 0.05), (turning, 0.05)] {
+        let shape = turned_box(radius, motion);
+        let settings = StepSettings { dt: 1.0 / 600.0, rule: Rule::Predictive, sweeps: 2, damping: 0.5, ..settings() };
+        let model = Grid::horizontal(21, 0.03).model();
+        let mut reference = Reference::new(&model, &settings, Colliders { maps: None, shapes: vec![shape.clone()] });
+        let (mut touched, mut deepest) = (0, f64::NEG_INFINITY);
+        for k in 0..900 {
+            reference.step();
+            touched = touched.max(reference.contacts().iter().filter(|contact| contact.touching).count());
+            let time = f64::from(k + 1) / 600.0;
+            let depths = reference.positions().iter().map(|position| shape.depth(position.as_dvec3(), time));
+            deepest = depths.fold(deepest, f64::max);
+        }
+        assert!(touched > 10, "{touched} particles touched the box");
+        assert!(deepest < -1e-4, "{deepest} m deep, with edges of {radius} m");
+    }
 }
 
 #[test]
