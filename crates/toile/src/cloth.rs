@@ -1,10 +1,13 @@
 //! One cloth, simulated on the caller's device.
 
 use crate::{Error, Frame, Strain};
+#[cfg(feature = "native-wait")]
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
-use toile_gpu::{BodyMaps, Kernel, Kernels, Mark, PassTime, Plan, Solver, Timer};
+use toile_gpu::{BodyMaps, Kernels, Mark, Plan, Solver};
+#[cfg(feature = "native-wait")]
+use toile_gpu::{Kernel, PassTime, Timer};
 use toile_model::{Merge, Model, ModelError, PinTarget, Status, StepSettings};
 use toile_scene::Shape;
 use wgpu::util::DeviceExt;
@@ -274,6 +277,7 @@ impl Cloth {
     ///
     /// # Errors
     /// [`Error::Gpu`] when the device is lost.
+    #[cfg(feature = "native-wait")]
     pub fn time_step(
         &mut self,
         device: &wgpu::Device,

@@ -24,6 +24,8 @@ mod stage;
 mod state;
 mod strain;
 mod told;
+#[cfg(feature = "native-wait")]
+mod verdicts;
 
 pub use glam;
 pub use wgpu;

@@ -177,6 +177,7 @@ impl Simulation {
     ///
     /// # Errors
     /// As [`Simulation::advance`].
+    #[cfg(feature = "native-wait")]
     pub fn advance_timed(&mut self, queue: &wgpu::Queue, seconds: f64) -> Result<(Advance, [f64; 2]), Error> {
         let device = self.device.clone();
         let mut milliseconds = [0.0; 2];
