@@ -419,6 +419,8 @@ impl Simulation {
                 }
             }
         })?;
+        // A renderer may draw them before the first step.
+        recorder(Part::Steps, &mut |encoder| outfit.cloths().for_each(|cloth| cloth.record_normals(encoder)))?;
         if self.keeps_maps && stage == Stage::Running {
             outfit.keep_maps(&self.kernels, &self.bodies.moving[0], recorder)?;
         }

@@ -217,7 +217,7 @@ fn wrong_overrides_name_the_key_and_what_there_is() {
         })
         .collect();
     insta::assert_snapshot!(messages.join("\n"), @r#"
-    hang.toml, key "speed": unknown field `speed`, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `wind`, `spacing`, `maps`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `polish`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`, `capsule`, `plane`
+    hang.toml, key "speed": unknown field `speed`, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `wind`, `spacing`, `maps`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `polish`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`, `capsule`, `plane`, `box`
     hang.toml, key "fabric": unknown field `colour`, expected one of `base`, `name`, `areal_density`, `structural_stiffness`, `shear_stiffness`, `bend_stiffness`, `bending_rigidity`, `damping`, `thickness`, `friction`, `threshold`
     hang.toml, key "n": it is 1 and must be 2 to 2097152
     hang.toml, key "n": 8192 × 8192 particles are more than 4194304
@@ -261,7 +261,7 @@ fn wrong_overrides_name_the_key_and_what_there_is() {
     hang.toml, key "wind.drag": it is -1 and must be 0 to 100
     hang.toml, key "wind.lift": it is inf and must be 0 to 100
     hang.toml, key "name.first": invalid type: map, expected a string
-    hang.toml, key "": unknown field ``, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `wind`, `spacing`, `maps`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `polish`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`, `capsule`, `plane`
+    hang.toml, key "": unknown field ``, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `wind`, `spacing`, `maps`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `polish`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`, `capsule`, `plane`, `box`
     "#);
 }
 
