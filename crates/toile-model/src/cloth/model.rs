@@ -144,7 +144,7 @@ const SMALL_LEVEL_NODES: u32 = 1280;
 pub struct Level {
     /// Its nodes. Of those of the level below no two neighbours.
     pub nodes: Range<u32>,
-    /// Clusters of each colour in [`Model::clusters`]: no two of them share a node.
+    /// Clusters of each colour in [`Arrays::clusters`]: no two of them share a node.
     pub colours: Vec<Range<u32>>,
 }
 
@@ -186,7 +186,7 @@ pub struct SeamPair {
     pub ends: [u32; 2],
     /// Speed at which the pair closes [m/s].
     pub closing_speed: f32,
-    /// Index into [`Model::seam_names`].
+    /// Index into [`Arrays::seam_names`].
     pub seam: u32,
 }
 
@@ -195,7 +195,7 @@ pub struct SeamPair {
 pub struct Hold {
     /// The label.
     pub label: String,
-    /// Where its particles stand in [`Model::held_particles`]; never empty.
+    /// Where its particles stand in [`Arrays::held_particles`]; never empty.
     pub particles: Range<u32>,
     /// Mean height y at time 0 [m].
     pub height: f32,
