@@ -12,7 +12,7 @@ mod support;
 use glam::{DVec3, Vec3};
 use support::Bench;
 use toile::gpu::readback;
-use toile::model::{Limit, Model, StepSettings};
+use toile::model::{Arrays, Limit, Model, StepSettings};
 use toile::scene::{Polish, Rule, Scene, Settings, Sheet, Threshold, VelocityModification};
 use toile::{Cloth, Colliders, Strain};
 use toile_lab::Random;
@@ -219,9 +219,10 @@ fn free_sheet(bench: &Bench, scene: &Scene) -> [f64; 2] {
     (fabric.structural_stiffness, fabric.shear_stiffness, fabric.bend_stiffness) = (0.0, 0.0, 0.0);
     fabric.damping = 0.0;
     let free = Sheet { columns: 64, rows: 64, pins: Vec::new(), ..sheet(scene).clone() };
-    let mut model = Model::from_sheet(&free, &settings);
     let random = &mut Random::new(1);
-    model.positions.iter_mut().for_each(|position| *position += random.vector(0.004));
+    let crumple =
+        |model: &mut Arrays| model.positions.iter_mut().for_each(|position| *position += random.vector(0.004));
+    let model = Model::from_sheet(&free, &settings).changed(crumple).expect("particles elsewhere");
     let step = StepSettings::new(&settings, &model);
     let mut cloth = Cloth::new(&bench.device, &model, &StepSettings { steps_per_frame: 1, ..step }, Default::default())
         .unwrap_or_else(|error| panic!("{error}"));

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3, Vec3, vec3};
 use toile::Simulation;
 use toile_gpu::{MapSpace, MovingBody};
-use toile_lab::fixtures::{fixture, scene, sheet_model};
+use toile_lab::fixtures::{fixture, free_particle, scene, sheet_model};
 use toile_lab::kernels::{first_difference, vec3_words};
 use toile_lab::{DrawnMaps, read_maps};
 use toile_model::{MapBox, Model, SideBox, StepSettings};
@@ -188,7 +188,7 @@ fn surface_between_two_poses(kind: MapKind) {
     let velocities = vertex_velocities(&before.positions, &after.positions, (1.0 / interval) as f32);
     let surface = Surface { mesh: &after, thickness: 0.0, velocities: Some(&velocities), open: false };
     let maps = BodyMaps::draw(kind, &[surface], map_box);
-    let settings = StepSettings::new(&sheet("4").1.settings, &Model::default());
+    let settings = StepSettings::new(&sheet("4").1.settings, &free_particle());
     let settings = StepSettings { swept: true, thickness: 0.0, ..settings };
     let mut worst: [f32; 2] = [0.0; 2];
     for (share, step) in [(0.0, 0), (0.5, 8), (0.95, 15)] {

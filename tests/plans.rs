@@ -159,7 +159,11 @@ fn a_polish_repeats_the_sweep_behind_grants_and_a_plan_without_has_neither() {
         assert_eq!(looks.len(), usize::from(name != "hang"), "{name}");
         let further: Vec<Pass> =
             later[..later.len() / sweeps].iter().chain(&guards).chain([&measurement]).cloned().collect();
-        let numbered = further.iter().zip(0..).map(|(pass, place)| Pass { grant: Some(place), ..pass.clone() });
+        let numbered = further.iter().zip(0..).map(|(pass, place)| {
+            let mut pass = pass.clone();
+            pass.grant = Some(place);
+            pass
+        });
         let granted: Vec<_> = polished.0.step.iter().filter(|pass| pass.grant.is_some()).cloned().collect();
         let three: Vec<Pass> = numbered.cycle().take(3 * further.len()).collect();
         assert_eq!(granted, three, "{name}: three times the sweep, each guarded and measured");

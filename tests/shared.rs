@@ -40,6 +40,17 @@ fn a_further_cloth_makes_no_pipeline_and_moves_alike() {
 }
 
 #[test]
+fn all_of_them_are_made_while_the_host_awaits_them() {
+    let kernels = Kernels::new(&gpu().device);
+    let all = kernels.all_made();
+    // The thread that asked goes on.
+    assert!(kernels.made_count() < TABLE.len());
+    pollster::block_on(all).expect("the device takes them");
+    assert_eq!(kernels.made_count(), TABLE.len() + 2);
+    pollster::block_on(kernels.all_made()).expect("there is nothing left to make");
+}
+
+#[test]
 fn all_of_them_are_made_at_once_and_a_dressing_needs_no_more() {
     let kernels = Kernels::new(&gpu().device);
     kernels.make_all();

@@ -1,6 +1,6 @@
 //! Body, maps and cloths go together at any rate of the host.
 
-use crate::support::{advance, positions, rolling, start, walking};
+use crate::support::{advance, gpu, positions, rolling, start, walking};
 use toile_scene::Scene;
 
 /// So long the cloth falls on the ball and is taken along [s].
@@ -43,6 +43,20 @@ fn the_body_goes_with_the_cloth() {
         assert!((0.0..=1.0 / 60.0 + 1e-9).contains(&lag), "call {call}: the maps show the body {lag} s ahead");
     }
     assert!((simulation.time() - 50.0 / 144.0).abs() < 1.0 / 960.0);
+}
+
+/// A host that draws faster than the maps are drawn sees cloth in the light before its first step.
+#[test]
+fn cloth_has_normals_before_its_first_step() {
+    let mut simulation = start(&rolling(2));
+    gpu().run(|encoder| {
+        let advance = simulation.advance(encoder, 1e-4).expect("it is finite");
+        assert_eq!(advance.step_count, 0);
+    });
+    for worn in simulation.cloths() {
+        let normals = gpu().vec3s(&worn.cloth.frame().normals);
+        assert!(normals.iter().all(|normal| (normal.length() - 1.0).abs() < 1e-5), "{}: {}", worn.name, normals[0]);
+    }
 }
 
 #[test]

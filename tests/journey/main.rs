@@ -6,6 +6,7 @@ mod dressing;
 mod headings;
 mod jumps;
 mod layers;
+mod put_on;
 mod saved;
 mod sewing;
 mod support;

@@ -3,9 +3,9 @@
 use glam::{Vec3, vec3};
 use toile_gpu::{BodyMaps, Kernel, MapSpace, MapsFault, Surface};
 use toile_lab::DrawnMaps;
-use toile_lab::fixtures::{body, settings};
+use toile_lab::fixtures::{body, free_particle, settings};
 use toile_lab::shapes::without_triangles;
-use toile_model::{MapBox, Model, StepSettings};
+use toile_model::{MapBox, StepSettings};
 use toile_reference::maps::{self, LayerMaps, draw_layers};
 use toile_reference::step::sample_body_maps;
 use toile_reference::{ExactDistance, Lag};
@@ -193,7 +193,8 @@ fn what_does_not_fit_is_told() {
     assert!(lost.lost_crossings > 1000 && lost.dropped_triangles == 0, "{lost}");
     let mut broken = block.clone();
     broken.positions[0].x = f32::NAN;
-    let dropped = MapsFault { dropped_triangles: 2, ..MapsFault::default() };
+    let mut dropped = MapsFault::default();
+    dropped.dropped_triangles = 2;
     assert_eq!(told(vec![broken], block.area()), Some(dropped));
     let slab = |k: u32| Mesh::cuboid(vec3(-0.1, -0.1, 0.01 * k as f32 - 0.1), vec3(0.1, 0.1, 0.01 * k as f32 - 0.095));
     let slabs: Vec<Mesh> = (0..17).map(slab).collect();
@@ -207,7 +208,7 @@ fn errors(kind: MapKind, mesh: &Mesh) -> [f64; 2] {
     let surface = maps::Surface { mesh, thickness: 0.0, velocities: None, open: false };
     let maps = maps::BodyMaps::around(kind, &[surface], TEXEL);
     let exact = ExactDistance::new(mesh);
-    let step = StepSettings { thickness: 0.0, ..StepSettings::new(&settings(0.03), &Model::default()) };
+    let step = StepSettings { thickness: 0.0, ..StepSettings::new(&settings(0.03), &free_particle()) };
     let points: Vec<Vec3> = mesh
         .triangles
         .iter()

@@ -506,6 +506,24 @@ fn shapes(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usiz
     see("is reached by the side of a capsule", all().filter(|i| by_capsule(i) && along(i).abs() < 1.0).count());
     see("is reached by an end of a capsule", all().filter(|i| by_capsule(i) && along(i) > 1.0).count());
     see("is reached by its other end", all().filter(|i| by_capsule(i) && along(i) < -1.0).count());
+    let cuboid = before.shapes.iter().position(|shape| shape.kind == ShapeKind::Box).expect("there is one");
+    // How far beyond the core a point is along each axis of the box; below 0 within.
+    let beyond = |i: usize| {
+        let shape = &before.shapes[cuboid];
+        let [right, up] = shape.turn;
+        let from_centre = points[i] - shape.centre;
+        (glam::vec3(right.dot(from_centre), up.dot(from_centre), right.cross(up).dot(from_centre)).abs() - shape.axis)
+            .to_array()
+    };
+    for (what, axes) in [
+        ("is reached within the core of a box", 0),
+        ("is reached by a face of a box", 1),
+        ("is reached by an edge of a box", 2),
+        ("is reached by a corner of a box", 3),
+    ] {
+        let beside = |i: &usize| beyond(*i).into_iter().filter(|way| *way > 0.0).count() == axes;
+        see(what, all().filter(|i| reached(i) && beside(i) && same(&after.probes[*i], &alone[cuboid][*i])).count());
+    }
     let plane = before.shapes.iter().position(|shape| shape.kind == ShapeKind::Plane).expect("there is one");
     see("is reached by a plane", all().filter(|i| reached(i) && same(&after.probes[*i], &alone[plane][*i])).count());
     for order in

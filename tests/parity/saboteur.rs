@@ -36,6 +36,12 @@ const SPARED: &[(&str, Kind, &[&str])] = &[
         Kind::Constant,
         &["const SHUT: f32 = 1e-13", "const SHUT: f32 = 2e-12"],
     ),
+    (
+        "the search for the way into a box has ended before",
+        Kind::Constant,
+        &["const BOX_TURNS: u32 = 7u", "var k = 1u; k < BOX_TURNS"],
+    ),
+    ("the search for the way into a box has ended before", Kind::Border, &["k <= BOX_TURNS"]),
     ("nothing is as far away as that", Kind::Border, &["seen.distance <= FAR"]),
     (
         "the rim of the maps is empty, so what lies beyond it is nothing too",
@@ -142,6 +148,9 @@ const SPARED: &[(&str, Kind, &[&str])] = &[
             "abs(cosine) <= 0.3",
             "abs(next.z - column.front) < abs(",
             "column.front - start.z < start.z",
+            "depth.y <= least",
+            "depth.z <= least",
+            "place >= 0.0",
             "step.dt <= step.contact_margin",
             "distance_front > distance_back",
             "elongation * step.aim >=",

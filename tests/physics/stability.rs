@@ -26,7 +26,7 @@ fn hang(n: u32, rule: Rule) -> Run {
     let model = sheet_model(&hang);
     let settings = StepSettings::new(&hang.settings, &model);
     let cloth = Cloth::new(&gpu().device, &model, &settings, Default::default()).expect("it fits the device");
-    let mut run = Run { cloth, limits: model.limits, speed_max: 0.0, elongation_max: 0.0, end: Ok(()) };
+    let mut run = Run { cloth, limits: model.limits.clone(), speed_max: 0.0, elongation_max: 0.0, end: Ok(()) };
     for _ in 0..FRAMES {
         match advance(&mut run.cloth) {
             Ok(status) => {

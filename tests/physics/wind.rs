@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3, dvec3};
 use toile_gpu::Solver;
 use toile_lab::Random;
 use toile_lab::fixtures::{scene, sheet_settings};
-use toile_model::{Link, Model, NO_CORNER, StepSettings};
+use toile_model::{Arrays, Link, Model, NO_CORNER, StepSettings};
 use toile_scene::{AIR_DENSITY, Pin, Rule, Settings, Sheet, Wind};
 use toile_workspace::gpu;
 
@@ -38,9 +38,8 @@ struct Run {
 }
 
 impl Run {
-    fn new(sheet: &Sheet, settings: &Settings, change: impl FnOnce(&mut Model)) -> Self {
-        let mut model = Model::from_sheet(sheet, settings);
-        change(&mut model);
+    fn new(sheet: &Sheet, settings: &Settings, change: impl FnOnce(&mut Arrays)) -> Self {
+        let model = Model::from_sheet(sheet, settings).changed(change).expect("arrays that fit together");
         let settings = StepSettings::new(settings, &model);
         let solver = Solver::new(&gpu().device, &model, &settings, Default::default()).expect("it fits the device");
         Self { model, settings, solver }
@@ -135,7 +134,7 @@ fn load(model: &Model, wind: &Wind) -> DVec3 {
 fn the_momentum_gained_is_the_sum_of_drag_and_lift_of_all_quads() {
     let wind = Wind { drag: 1.1, lift: 0.6, ..Wind::new(dvec3(0.4, 0.9, -0.7)) };
     let settings = Settings { safety: 0.05, ..settings(wind, DVec3::ZERO, 0.0) };
-    let crumple = |model: &mut Model| {
+    let crumple = |model: &mut Arrays| {
         let random = &mut Random::new(3);
         for position in &mut model.positions {
             *position += random.vector(0.02);
@@ -195,7 +194,7 @@ fn pressing(pressure: &str) -> Wind {
 fn the_momentum_gained_under_pressure_is_that_of_the_flat_area() {
     for pressure in ["20", "-5"] {
         let wind = pressing(pressure);
-        let bulge = |model: &mut Model| {
+        let bulge = |model: &mut Arrays| {
             for (i, position) in model.positions.iter_mut().enumerate() {
                 let [x, y] = [i % 11, i / 11].map(|place| place as f32 / 10.0);
                 position.z += 0.3 * (x * (1.0 - x) * y * (1.0 - y)).sqrt();

@@ -6,6 +6,7 @@
 
 const CAPSULE: u32 = 1u;
 const PLANE: u32 = 2u;
+const BOX: u32 = 3u;
 
 @group(0) var<storage, read> shapes: array<Shape>;
 
@@ -84,8 +85,83 @@ fn plane_probe(shape: Shape, from_centre: vec3<f32>) -> Probe {
     return Probe(shape.axis, height - shape.radius, surface_velocity, 1.0);
 }
 
+// Turns of the search for where a way enters a box. Each goes on to the plane that the nearest point of the box has, behind which all of it
+// lies; so none goes too far.
+const BOX_TURNS: u32 = 6u;
+
+// The place of a box of these half extents around the origin that is nearest to another one.
+fn within(place: vec3<f32>, half: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(clamp(place.x, -half.x, half.x), clamp(place.y, -half.y, half.y), clamp(place.z, -half.z, half.z));
+}
+
+// After which part of its way a place meets a box, all along the axes of the box; at once where it is inside.
+fn box_entry(shape: Shape, start: vec3<f32>, way: vec3<f32>) -> f32 {
+    var share = 0.0;
+    for (var k = 0u; k < BOX_TURNS; k++) {
+        let place = start + way * share;
+        let outward = place - within(place, shape.axis);
+        let outward_length = length(outward);
+        let gap = outward_length - shape.radius;
+        if !(gap > 0.0) {
+            return share;
+        }
+        let closing = dot(outward, way) / outward_length;
+        if !(closing < 0.0) {
+            return NEVER;
+        }
+        share = share - gap / closing;
+    }
+    return share;
+}
+
+// On which side of the middle a place is.
+fn side_of(place: f32) -> f32 {
+    return select(-1.0, 1.0, place > 0.0);
+}
+
+fn box_probe(shape: Shape, from_centre: vec3<f32>, velocity: vec3<f32>) -> Probe {
+    let forward = shape.right.yzx * shape.up.zxy - shape.right.zxy * shape.up.yzx;
+    // A place that turns with the box goes on, seen from it, as if it stood still.
+    let turning = shape.spin.yzx * from_centre.zxy - shape.spin.zxy * from_centre.yzx;
+    let way = ((velocity - shape.velocity) - turning) * step.dt;
+    let start = vec3<f32>(dot(shape.right, from_centre), dot(shape.up, from_centre), dot(forward, from_centre));
+    let along = vec3<f32>(dot(shape.right, way), dot(shape.up, way), dot(forward, way));
+    let met = met_at(start, along, box_entry(shape, start, along));
+    let core = within(met, shape.axis);
+    let outward = met - core;
+    let outward_length = length(outward);
+    var normal = outward / outward_length;
+    var distance = dot(normal, start - core) - shape.radius;
+    if !(outward_length > 0.0) {
+        // Out of the core the nearest face leads.
+        let depth = shape.axis - abs(met);
+        let side = vec3<f32>(side_of(met.x), side_of(met.y), side_of(met.z));
+        var least = depth.x;
+        normal = vec3<f32>(side.x, 0.0, 0.0);
+        if depth.y < least {
+            least = depth.y;
+            normal = vec3<f32>(0.0, side.y, 0.0);
+        }
+        if depth.z < least {
+            least = depth.z;
+            normal = vec3<f32>(0.0, 0.0, side.z);
+        }
+        distance = -least - shape.radius;
+    }
+    let x = vec3<f32>(shape.right.x, shape.up.x, forward.x);
+    let y = vec3<f32>(shape.right.y, shape.up.y, forward.y);
+    let z = vec3<f32>(shape.right.z, shape.up.z, forward.z);
+    let outside = vec3<f32>(dot(x, normal), dot(y, normal), dot(z, normal));
+    let place = vec3<f32>(dot(x, met), dot(y, met), dot(z, met));
+    let surface_velocity = (shape.velocity + shape.spin.yzx * place.zxy) - shape.spin.zxy * place.yzx;
+    return Probe(outside, distance, surface_velocity, 1.0);
+}
+
 fn look_at(shape: Shape, point: Midpoint) -> Probe {
     let from_centre = point.position - shape.centre;
+    if shape.kind == BOX {
+        return box_probe(shape, from_centre, point.velocity);
+    }
     if shape.kind == PLANE {
         return plane_probe(shape, from_centre);
     }

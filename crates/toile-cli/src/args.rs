@@ -13,7 +13,7 @@ use glam::DVec3;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use toile::model::Axis;
-use toile::scene::{Polish, Settings};
+use toile::scene::{Polish, Settings, Wind};
 
 /// What a script hears.
 const EXIT_CODES: &str = "\
@@ -328,8 +328,8 @@ fn parse_facing(text: &str) -> Result<Axis, String> {
 fn parse_velocity(text: &str) -> Result<DVec3, String> {
     let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
     match numbers.as_deref() {
-        Some(&[x, y, z]) if [x, y, z].iter().all(|v| v.abs() <= 100.0) => Ok(DVec3::new(x, y, z)),
-        _ => Err("it must be three numbers of at most 100 m/s, as 0,0,-3".to_owned()),
+        Some(&[x, y, z]) if [x, y, z].iter().all(|v| Wind::VELOCITIES.contains(v)) => Ok(DVec3::new(x, y, z)),
+        _ => Err(format!("it must be three numbers of at most {} m/s, as 0,0,-3", Wind::VELOCITIES.end())),
     }
 }
 

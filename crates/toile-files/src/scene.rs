@@ -157,6 +157,9 @@ fn convert_polish(toml: PolishToml, rule: Rule) -> Result<Polish, Found> {
 
 fn convert_wind(toml: &WindToml) -> Result<Wind, Found> {
     let mut wind = Wind::new(vector("wind.velocity", toml.velocity)?);
+    for component in toml.velocity {
+        within("wind.velocity", component, Wind::VELOCITIES, "m/s")?;
+    }
     for (name, value) in &toml.numbers {
         let Some(number) = Wind::NUMBERS.iter().find(|number| number.name == name) else {
             let known: Vec<String> = Wind::NUMBERS.iter().map(|number| format!(", `{}`", number.name)).collect();

@@ -5,14 +5,14 @@ use encase::{ShaderType, StorageBuffer, UniformBuffer, internal::WriteInto};
 use glam::{Vec3, Vec4};
 use toile_kernels::structs;
 use toile_model::{
-    Attachment, Cluster, Hold, Leader, Limit, Link, MapBox, Model, PinTarget, SeamPair, ShapeStep, SideBox,
+    Arrays, Attachment, Cluster, Hold, Leader, Limit, Link, MapBox, PinTarget, SeamPair, ShapeStep, SideBox,
     StepSettings,
 };
 use toile_scene::{Displacement, Influence, Polish};
 
 /// Bytes of the buffer of a name that a model and the settings of its step decide; `None` for the others. `after_maps` when shapes are
 /// sampled after maps.
-pub fn constant(name: &str, model: &Model, settings: &StepSettings, after_maps: bool) -> Option<Vec<u8>> {
+pub fn constant(name: &str, model: &Arrays, settings: &StepSettings, after_maps: bool) -> Option<Vec<u8>> {
     Some(match name {
         "step" => uniform(&step_params(Counts::of(model), settings, after_maps)),
         "polish" => {
@@ -51,7 +51,7 @@ pub trait Encode {
     fn encode(&self) -> Self::Struct;
 }
 
-fn nodes(model: &Model) -> Vec<u8> {
+fn nodes(model: &Arrays) -> Vec<u8> {
     array((0..model.leaders.row_count()).map(|node| structs::Node {
         site: model.site(node as u32),
         inverse_mass: match node.checked_sub(model.positions.len()) {
@@ -64,7 +64,7 @@ fn nodes(model: &Model) -> Vec<u8> {
 }
 
 /// The turns of the small levels, from the coarsest on: the nodes of a level begin, then its colours are held.
-fn small_turns(model: &Model, settings: &StepSettings) -> Vec<u8> {
+fn small_turns(model: &Arrays, settings: &StepSettings) -> Vec<u8> {
     let mut turns = Vec::new();
     let none = structs::SmallTurn { first_node: 0, end_node: 0, first_cluster: 0, end_cluster: 0, relaxation: 0.0 };
     for level in model.levels.iter().rev().filter(|level| level.is_small()) {
@@ -175,6 +175,8 @@ encode! {
         kind: shape.kind as u32,
         spin: shape.spin,
         axis: shape.axis,
+        right: shape.turn[0],
+        up: shape.turn[1],
     }
     |side_box: SideBox| SideBox {
         origin_x: side_box.origin_x,

@@ -31,6 +31,14 @@ pub enum GpuError {
         /// What the device has.
         available: u32,
     },
+    /// The device refuses a pipeline.
+    #[error("the device refuses the pipeline of {kernel}: {message}")]
+    Pipeline {
+        /// Name of the kernel.
+        kernel: String,
+        /// What it says.
+        message: String,
+    },
     /// The maps are larger than the device's textures.
     #[error(
         "the maps need {columns} × {rows} texels but this device has textures of at most {available} on a side; use a larger texel"

@@ -1,12 +1,14 @@
 //! The pipelines of a device: each made once, for all that runs on it.
 
-use crate::Program;
+use crate::all_made::AllMade;
 use crate::maps::SidePipeline;
+use crate::{GpuError, Program};
+#[cfg(not(target_arch = "wasm32"))]
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 use toile_kernels::{Kernel, TABLE};
 
-/// The pipelines of a device, each made once: when it is first needed, or all at once by [`Kernels::make_all`]. Cheap to clone; whoever is given the same handle shares
+/// The pipelines of a device, each made once: when it is first needed, or all at once by [`Kernels::all_made`]. Cheap to clone; whoever is given the same handle shares
 /// them. What takes `impl Into<Kernels>` also takes a device, and then makes pipelines of its own.
 #[derive(Clone, Debug)]
 pub struct Kernels {
@@ -42,21 +44,85 @@ impl Kernels {
 
     /// Makes every pipeline that is not there yet, side by side on all cores; in a browser one after the other. It waits until they are made:
     /// a host that draws meanwhile calls it on a thread of its own.
+    ///
+    /// A pipeline that the device refuses is an error of its own, which it tells as any other.
+    #[cfg(feature = "native-wait")]
     pub fn make_all(&self) {
-        let jobs = TABLE.len() + self.shared.sides.len();
+        #[cfg(not(target_arch = "wasm32"))]
+        self.make_side_by_side(&|job| self.make_one(job));
+        #[cfg(target_arch = "wasm32")]
+        (0..self.job_count()).for_each(|job| self.make_one(job));
+    }
+
+    /// Has every pipeline made that is not there yet, and gives the future of it. Natively threads of its own make them, from now on; in a browser they are
+    /// asked for now, and the browser makes them. It never blocks, and needs no executor of a certain kind.
+    ///
+    /// The future gives [`GpuError::Pipeline`] where the device refuses one.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn all_made(&self) -> AllMade {
+        let kernels = self.clone();
+        AllMade::by_thread(move || {
+            let refused = std::sync::Mutex::new(Ok(()));
+            kernels.make_side_by_side(&|job| {
+                let scope = kernels.device().push_error_scope(wgpu::ErrorFilter::Validation);
+                kernels.make_one(job);
+                // Natively what a scope caught is there at once.
+                let mut caught = std::pin::pin!(scope.pop());
+                let caught = caught.as_mut().poll(&mut std::task::Context::from_waker(std::task::Waker::noop()));
+                if let std::task::Poll::Ready(Some(error)) = caught {
+                    *refused.lock().unwrap_or_else(std::sync::PoisonError::into_inner) = Err(refusal(job, &error));
+                }
+            });
+            refused.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner)
+        })
+    }
+
+    /// Has every pipeline made that is not there yet, and gives the future of it. Natively threads of its own make them, from now on; in a browser they are
+    /// asked for now, and the browser makes them. It never blocks, and needs no executor of a certain kind.
+    ///
+    /// The future gives [`GpuError::Pipeline`] where the device refuses one.
+    #[cfg(target_arch = "wasm32")]
+    pub fn all_made(&self) -> AllMade {
+        let asked = |job| {
+            let scope = self.device().push_error_scope(wgpu::ErrorFilter::Validation);
+            self.make_one(job);
+            (job, scope.pop())
+        };
+        let asked: Vec<_> = (0..self.job_count()).map(asked).collect();
+        AllMade::of(async move {
+            for (job, caught) in asked {
+                if let Some(error) = caught.await {
+                    return Err(refusal(job, &error));
+                }
+            }
+            Ok(())
+        })
+    }
+
+    fn job_count(&self) -> usize {
+        TABLE.len() + self.shared.sides.len()
+    }
+
+    /// Makes a pipeline by its number: those of the kernels first, then what draws the papers' maps.
+    fn make_one(&self, job: usize) {
+        match TABLE.get(job) {
+            Some(row) => drop(self.program(row.kernel)),
+            None => drop(self.sides(job > TABLE.len())),
+        }
+    }
+
+    #[cfg(not(target_arch = "wasm32"))]
+    fn make_side_by_side(&self, make: &(dyn Fn(usize) + Sync)) {
+        let jobs = self.job_count();
         let next = AtomicUsize::new(0);
         let work = || {
             loop {
                 match next.fetch_add(1, Ordering::Relaxed) {
-                    job if job < TABLE.len() => drop(self.program(TABLE[job].kernel)),
-                    job if job < jobs => drop(self.sides(job > TABLE.len())),
+                    job if job < jobs => make(job),
                     _ => break,
                 }
             }
         };
-        if cfg!(target_arch = "wasm32") {
-            return work();
-        }
         let threads = std::thread::available_parallelism().map_or(1, usize::from).min(jobs);
         std::thread::scope(|scope| {
             (1..threads).for_each(|_| drop(scope.spawn(work)));
@@ -87,6 +153,12 @@ impl Kernels {
         let Shared { device, cache, sides, .. } = &*self.shared;
         sides[usize::from(moving)].get_or_init(|| SidePipeline::new(device, moving, cache.as_ref())).clone()
     }
+}
+
+/// What a device says of a pipeline that it refuses.
+fn refusal(job: usize, error: &wgpu::Error) -> GpuError {
+    let kernel = TABLE.get(job).map_or("the maps of two sides", |row| row.kernel.name());
+    GpuError::Pipeline { kernel: kernel.to_owned(), message: error.to_string() }
 }
 
 impl From<&Kernels> for Kernels {

@@ -1,8 +1,9 @@
 //! Plan, buffers, maps, pipelines, solver, status, timing and read-back on a wgpu device.
 //!
-//! Nothing here creates a device, submits, or waits, except the functions of [`readback`], [`Timer`] and [`Solver::time_step`], which are for
-//! tests, benches and programs that write files.
+//! Nothing here creates a device, submits, or waits, except what the feature `native-wait` brings: `readback`, `Timer`, `Solver::time_step` and
+//! `Kernels::make_all`, which are for tests, benches and programs that write files.
 
+mod all_made;
 mod buffers;
 pub mod contents;
 mod error;
@@ -16,15 +17,18 @@ mod needs;
 mod plan;
 mod program;
 mod raised;
+#[cfg(feature = "native-wait")]
 pub mod readback;
 mod slot;
 mod solver;
 mod status;
 mod step_params;
+#[cfg(feature = "native-wait")]
 mod timing;
 mod traffic;
 mod trail;
 
+pub use all_made::AllMade;
 pub use error::GpuError;
 pub use hosted::{HostAttribute, HostMotion, HostVertices};
 pub use kernels::Kernels;
@@ -37,6 +41,7 @@ pub use program::Program;
 pub use raised::Raised;
 pub use slot::Arrival;
 pub use solver::{Colliders, Solver};
+#[cfg(feature = "native-wait")]
 pub use timing::{PassTime, Timer};
 pub use toile_kernels::Kernel;
 pub use trail::Trail;

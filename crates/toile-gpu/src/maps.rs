@@ -56,6 +56,7 @@ impl MapSpace {
     "the maps lost {lost_crossings} crossings of their columns, {dropped_triangles} triangles that are not finite or more than \
      4000 texels away, and {crowded_columns} columns with more than 32 surfaces one behind the other; use a larger texel"
 )]
+#[non_exhaustive]
 pub struct MapsFault {
     /// Crossings beyond the capacity.
     pub lost_crossings: u64,

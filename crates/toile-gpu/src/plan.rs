@@ -12,6 +12,7 @@ const WORKGROUPS_MAX: u32 = 65_535;
 
 /// The passes of one step and of the end of one frame, in order.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Plan {
     /// Passes of one step.
     pub step: Vec<Pass>,
@@ -23,6 +24,7 @@ pub struct Plan {
 
 /// One dispatch of a kernel.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Pass {
     /// The kernel.
     pub kernel: Kernel,
@@ -38,6 +40,7 @@ pub struct Pass {
 
 /// What one kernel does in a step or at the end of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct KernelRuns {
     /// The kernel.
     pub kernel: Kernel,

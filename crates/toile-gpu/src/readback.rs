@@ -70,6 +70,7 @@ pub fn read_columns(device: &wgpu::Device, queue: &wgpu::Queue, maps: &BodyMaps)
 
 /// A layer of layered maps.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ReadLayer {
     /// Place along the axis [m].
     pub depth: f32,

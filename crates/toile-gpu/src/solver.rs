@@ -5,9 +5,11 @@ use crate::contents::{constant, encoded, uniform};
 use crate::limits::check_limits;
 use crate::status::StatusReader;
 use crate::step_params::{Counts, step_params};
+#[cfg(feature = "native-wait")]
 use crate::timing::{PassTime, Timer};
 use crate::{BodyMaps, GpuError, Kernels, Maps, Pass, Plan, Program};
 use glam::{DMat4, Vec3};
+#[cfg(feature = "native-wait")]
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toile_kernels::{Kernel, Role, structs};
@@ -210,6 +212,7 @@ impl Solver {
     ///
     /// # Errors
     /// [`GpuError::Device`] when the device is lost.
+    #[cfg(feature = "native-wait")]
     pub fn time_step(
         &mut self,
         device: &wgpu::Device,
@@ -234,6 +237,7 @@ impl Solver {
     }
 
     /// Time of a copy of the whole state [ms].
+    #[cfg(feature = "native-wait")]
     fn time_state_copy(&self, device: &wgpu::Device, queue: &wgpu::Queue, timer: &Timer) -> Result<f64, GpuError> {
         let program = self.kernels.program(Kernel::StateCopy);
         let copies = ["position_copies", "velocity_copies"].map(|label| {

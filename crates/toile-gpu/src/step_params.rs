@@ -2,11 +2,12 @@
 
 use glam::DVec3;
 use toile_kernels::structs::StepParams;
-use toile_model::{Model, StepSettings};
+use toile_model::{Arrays, StepSettings};
 use toile_scene::{Friction, Wind};
 
 /// How many there are of what the kernels go over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Counts {
     /// Particles.
     pub particles: u32,
@@ -18,7 +19,7 @@ pub struct Counts {
 
 impl Counts {
     /// Those of a model.
-    pub fn of(model: &Model) -> Self {
+    pub fn of(model: &Arrays) -> Self {
         Self { particles: model.particle_count(), quads: model.quad_count(), limits: model.limits.len() as u32 }
     }
 }

@@ -24,6 +24,7 @@ enum Clock {
 
 /// What a kernel cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct PassTime {
     /// Dispatches.
     pub dispatches: u32,

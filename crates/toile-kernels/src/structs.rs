@@ -372,8 +372,12 @@ shared_structs! {
         kind: u32,
         /// Angular velocity [rad/s].
         spin: vec3,
-        /// Of a capsule from its centre to an end [m], of a plane its normal; zero of a sphere.
+        /// Of a capsule from its centre to an end [m], of a plane its normal, of a box half of its extents without the rounding [m]; zero of a sphere.
         axis: vec3,
+        /// First axis of a box.
+        right: vec3,
+        /// Second axis of a box.
+        up: vec3,
     }
 
     /// How long before the time of the maps a step begins and ends.

@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 use toile::files::{BodyOptions, read_body, read_garment, read_moving_body, read_scene};
-use toile::model::Model;
+use toile::glam::Vec3;
+use toile::model::{Arrays, Model};
 use toile::scene::{Body, Cloth, Fabric, Garment, Mesh, MovingMesh, Scene, Settings, Shape};
 
 /// Names of the scenes in `fixtures/scenes`.
@@ -21,6 +22,11 @@ pub fn scene(name: &str, overrides: &[(&str, &str)]) -> Scene {
     let overrides: Vec<_> = overrides.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
     let file = read_scene(&fixture(&format!("scenes/{name}.toml")), &overrides);
     file.unwrap_or_else(|error| panic!("{error}")).scene
+}
+
+/// A particle of 1 kg that nothing joins, for steps that hang on no spring.
+pub fn free_particle() -> Model {
+    Model::new(Arrays::of_particles(vec![Vec3::ZERO], vec![1.0])).expect("a particle is a model")
 }
 
 /// The model of the sheet of a scene.

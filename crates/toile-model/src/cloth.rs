@@ -3,6 +3,7 @@
 mod assemble;
 mod attachments;
 mod bending;
+mod check;
 mod clusters;
 mod colouring;
 pub(crate) mod digest;

@@ -7,6 +7,12 @@ pub enum ModelError {
     /// A number that no scene has.
     #[error("{0}")]
     Range(#[from] toile_scene::OutOfRange),
+    /// Arrays that are no model.
+    #[error("the arrays of a model do not fit together: {what}")]
+    Arrays {
+        /// The first thing that does not fit, with its array, its index and what was expected.
+        what: String,
+    },
     /// The spacing is no length.
     #[error("the spacing is {spacing} m: give a positive, finite distance of neighbouring particles")]
     Spacing {

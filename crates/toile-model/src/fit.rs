@@ -41,6 +41,7 @@ pub struct FitOptions {
 /// A scene that is fine stays as it is, bit for bit. Only garments around the only mesh of a scene are looked at. What is no person that
 /// stands, such as a ball or a table, is neither turned nor followed; panels are moved out of it all the same.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Fit {
     /// What is simulated.
     pub scene: Scene,
@@ -54,8 +55,10 @@ impl Fit {
     /// Looks at a scene before anything of it is sewn.
     ///
     /// # Errors
-    /// [`FitError`] when what stands in the way cannot be mended.
+    /// [`FitError`] when a number of the scene is out of its range, or what stands in the way cannot be mended.
     pub fn new(scene: &Scene, options: &FitOptions) -> Result<Self, FitError> {
+        scene.check()?;
+        options.dress_in.as_ref().map_or(Ok(()), |pose| pose.check("the body to dress in"))?;
         let mut fit = Self { scene: scene.clone(), dress_in: options.dress_in.clone(), findings: Vec::new() };
         if fit.garments().next().is_none() {
             return Ok(fit);

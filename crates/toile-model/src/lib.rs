@@ -13,8 +13,8 @@ mod union_find;
 
 pub use cloth::digest::digest_of;
 pub use cloth::model::{
-    Attachment, CLUSTER_PAIRS, Cluster, CoarseParticle, Hold, Leader, Level, Limit, Link, Merge, Model, PanelMesh,
-    SeamPair, Spring, SpringKind,
+    Arrays, Attachment, CLUSTER_PAIRS, Cluster, CoarseParticle, Hold, Leader, Level, Limit, Link, Merge, Model,
+    PanelMesh, SeamPair, Spring, SpringKind,
 };
 pub use csr::Csr;
 pub use error::ModelError;

@@ -10,4 +10,5 @@ pub(crate) mod shape_step;
 pub(crate) mod side_box;
 pub(crate) mod status;
 pub(crate) mod step;
+mod step_check;
 pub(crate) mod verdict;

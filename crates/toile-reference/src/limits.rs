@@ -3,7 +3,7 @@
 use crate::{Contact, Nodes, Particles, Probe, step};
 use glam::Vec3;
 use std::ops::Range;
-use toile_model::{Model, StepSettings};
+use toile_model::{Arrays, StepSettings};
 use toile_scene::Rule;
 
 /// Particles begin a step with part of what limits gave them in the last: `pulls` [m/s], shape [particle_count].
@@ -17,7 +17,7 @@ pub fn warm_start(particles: &mut Particles, settings: &StepSettings, pulls: &mu
 /// are those of the last step, shape [particle_count], where there is a body; `pulls` [m/s] go on through the step, shape [particle_count].
 pub fn sweep(
     particles: &mut Particles,
-    model: &Model,
+    model: &Arrays,
     settings: &StepSettings,
     contacts: Option<&[Contact]>,
     pulls: &mut [Vec3],
@@ -43,7 +43,7 @@ pub fn sweep(
 }
 
 /// From the coarsest level to the cloth itself: each begins with what it is led by.
-fn levels(particles: &mut Particles, model: &Model, settings: &StepSettings, pulls: &mut [Vec3]) {
+fn levels(particles: &mut Particles, model: &Arrays, settings: &StepSettings, pulls: &mut [Vec3]) {
     let mut nodes = Nodes::new(model.positions.len() + model.coarse_particles.len());
     step::limit_small_levels(&mut nodes, particles, model, settings);
     for level in model.levels.iter().rev().filter(|level| !level.is_small()) {
@@ -57,7 +57,7 @@ fn levels(particles: &mut Particles, model: &Model, settings: &StepSettings, pul
 
 /// After the sweeps, where no seam is open: no contact leaves a spring stretched far beyond its limit, and no particle goes deeper into a
 /// body for it than the cloth is thick. `probes` are what the particles saw in this step, shape [particle_count], empty without body.
-pub fn guard(particles: &mut Particles, model: &Model, settings: &StepSettings, probes: &[Probe]) {
+pub fn guard(particles: &mut Particles, model: &Arrays, settings: &StepSettings, probes: &[Probe]) {
     if settings.rule != Rule::Hierarchical || settings.sweeps == 0 || !model.seam_pairs.is_empty() {
         return;
     }

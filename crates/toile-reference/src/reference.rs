@@ -27,19 +27,12 @@ impl Colliders {
 /// A simulation on the CPU, for snapshot tests and for machines without adapter. It gives the same answer everywhere.
 ///
 /// ```
-/// use glam::{Vec3, vec3};
-/// use toile_model::{Csr, Model, StepSettings};
+/// use glam::vec3;
+/// use toile_model::{Arrays, Model, StepSettings};
 /// use toile_reference::{Colliders, Reference};
 /// use toile_scene::{Friction, Rule};
 ///
-/// let model = Model {
-///     positions: vec![vec3(0.0, 1.0, 0.0)],
-///     masses: vec![0.001],
-///     inverse_masses: vec![1000.0],
-///     links: Csr::from_rows([[]]),
-///     particle_quads: Csr::from_rows([[]]),
-///     ..Model::default()
-/// };
+/// let model = Model::new(Arrays::of_particles(vec![vec3(0.0, 1.0, 0.0)], vec![0.001])).expect("a particle is a model");
 /// let settings = StepSettings {
 ///     dt: 0.01,
 ///     steps_per_frame: 10,

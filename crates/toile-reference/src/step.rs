@@ -74,7 +74,7 @@ pub use wind_forces::wind_forces;
 use crate::maps::BodyMaps;
 use crate::{Lag, Particles, Probe};
 use glam::Vec3;
-use toile_model::{Model, StepSettings};
+use toile_model::{Arrays, StepSettings};
 
 /// The surface that each point meets in the coming move, or none, whatever the maps. All arrays have the shape [point_count].
 pub fn sample_body_maps(
@@ -95,7 +95,7 @@ pub fn sample_body_maps(
 }
 
 /// Force on each particle [N] before the bodies answer, shape [particle_count]: that of the springs, and on it what the scene has.
-pub fn forces(particles: &Particles, model: &Model, settings: &StepSettings) -> Vec<Vec3> {
+pub fn forces(particles: &Particles, model: &Arrays, settings: &StepSettings) -> Vec<Vec3> {
     let mut forces = spring_forces(particles, &model.links, settings);
     if let Some(wind) = &settings.wind {
         let winds = quad_wind(particles, &model.quads, &model.particle_quads, wind, settings.dt);

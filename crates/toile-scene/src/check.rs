@@ -1,14 +1,16 @@
 //! What a scene must be like, whoever made it: a file, a program or a slider.
 
-use crate::{Body, Cloth, Fabric, Form, Friction, OutOfRange, Polish, Scene, Settings, Shape, ShapeMotion, Sheet};
+use crate::{Cloth, Fabric, Form, Friction, OutOfRange, Polish, Scene, Settings, Shape, ShapeMotion, Sheet};
 use crate::{VelocityModification, Wind};
 use glam::DVec3;
 use std::ops::RangeInclusive;
 
 /// Largest component of a vector: positions [m], velocities [m/s] and gravity [m/s²] beyond it are slips.
-const COMPONENTS: RangeInclusive<f64> = -1e6..=1e6;
+pub(crate) const COMPONENTS: RangeInclusive<f64> = -1e6..=1e6;
 /// Lengths of a sheet, a sphere's radius [m] and periods [s].
 const SIZES: RangeInclusive<f64> = 1e-3..=1e3;
+/// Length of what is of unit length.
+pub(crate) const UNIT: RangeInclusive<f64> = 0.999..=1.001;
 /// What is a part of a whole.
 const PARTS: RangeInclusive<f64> = 0.0..=1.0;
 
@@ -20,16 +22,13 @@ impl Scene {
     pub fn check(&self) -> Result<(), OutOfRange> {
         self.settings.check()?;
         for cloth in &self.cloths {
-            if let Cloth::Sheet(sheet) = cloth {
-                check_sheet(sheet)?;
+            match cloth {
+                Cloth::Sheet(sheet) => check_sheet(sheet)?,
+                Cloth::Garment(garment) => garment.check()?,
             }
             cloth.fabric().map_or(Ok(()), |fabric| fabric.check(&format!("{}.fabric.", cloth.name())))?;
         }
-        let mut shapes = self.bodies.iter().filter_map(|body| match body {
-            Body::Shape(shape) => Some(shape),
-            Body::Mesh(_) | Body::Moving(_) => None,
-        });
-        shapes.try_for_each(Shape::check)
+        self.bodies.iter().enumerate().try_for_each(|(at, body)| body.check(&format!("body {at}")))
     }
 }
 
@@ -41,7 +40,7 @@ impl Settings {
     pub fn check(&self) -> Result<(), OutOfRange> {
         self.fabric.check("fabric.")?;
         Self::NUMBERS.iter().try_for_each(|number| number.check("", self))?;
-        check_vector("gravity", self.gravity, "m/s²")?;
+        check_vector("gravity", self.gravity, &COMPONENTS, "m/s²")?;
         self.wind.iter().try_for_each(Wind::check)?;
         if let Friction::Papers { velocity_kept, force_removed } = self.friction {
             OutOfRange::check("friction.papers.velocity_kept", velocity_kept, &PARTS, "")?;
@@ -76,7 +75,7 @@ impl Wind {
     /// # Errors
     /// [`OutOfRange`] with the first such number.
     pub fn check(&self) -> Result<(), OutOfRange> {
-        check_vector("wind.velocity", self.velocity, "m/s")?;
+        check_vector("wind.velocity", self.velocity, &Self::VELOCITIES, "m/s")?;
         Self::NUMBERS.iter().try_for_each(|number| number.check("wind.", self))
     }
 }
@@ -88,19 +87,25 @@ impl Shape {
     /// [`OutOfRange`] with the first such number.
     pub fn check(&self) -> Result<(), OutOfRange> {
         let of = |part: &str| format!("{}.{part}", self.name());
-        check_vector(&of("centre"), self.centre, "m")?;
+        check_vector(&of("centre"), self.centre, &COMPONENTS, "m")?;
         match self.form {
             Form::Sphere { radius } => OutOfRange::check(of("radius"), radius, &SIZES, "m")?,
             Form::Capsule { half_axis, radius } => {
                 OutOfRange::check(of("radius"), radius, &SIZES, "m")?;
                 OutOfRange::check(of("length"), 2.0 * half_axis.length(), &SIZES, "m")?;
             }
-            Form::Plane { normal } => OutOfRange::check(of("normal"), normal.length(), &(0.999..=1.001), "")?,
+            Form::Plane { normal } => OutOfRange::check(of("normal"), normal.length(), &UNIT, "")?,
+            Form::Box { half_size, rotation, radius } => {
+                check_vector(&of("size"), 2.0 * half_size, &SIZES, "m")?;
+                OutOfRange::check(of("rotation"), rotation.length(), &UNIT, "")?;
+                OutOfRange::check(of("radius"), radius, &(0.0..=half_size.min_element()), "m")?;
+            }
         }
         match &self.motion {
-            ShapeMotion::Still | ShapeMotion::Keys(_) => Ok(()),
+            ShapeMotion::Still => Ok(()),
+            ShapeMotion::Keys(keys) => keys.check(self.name()),
             ShapeMotion::Swing { amplitude, period } => {
-                check_vector(&of("swing.amplitude"), *amplitude, "m")?;
+                check_vector(&of("swing.amplitude"), *amplitude, &COMPONENTS, "m")?;
                 OutOfRange::check(of("swing.period"), *period, &SIZES, "s")
             }
         }
@@ -114,7 +119,10 @@ fn check_sheet(sheet: &Sheet) -> Result<(), OutOfRange> {
         OutOfRange::check(of(name), f64::from(count), &(2.0..=0.5 * most), "")?;
     }
     OutOfRange::check(of("particles"), f64::from(sheet.columns) * f64::from(sheet.rows), &(4.0..=most), "")?;
-    check_vector(&of("corner"), sheet.corner, "m")?;
+    check_vector(&of("corner"), sheet.corner, &COMPONENTS, "m")?;
+    for (name, direction) in [("right", sheet.right), ("down", sheet.down)] {
+        OutOfRange::check(of(name), direction.length(), &UNIT, "")?;
+    }
     for length in sheet.size.to_array() {
         OutOfRange::check(of("size"), length, &SIZES, "m")?;
     }
@@ -125,19 +133,25 @@ fn check_sheet(sheet: &Sheet) -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// An error where a component of a vector is a slip, or no number.
-fn check_vector(name: &str, vector: DVec3, unit: &'static str) -> Result<(), OutOfRange> {
-    let named = ["x", "y", "z"].into_iter().zip(vector.to_array());
-    named
-        .into_iter()
-        .try_for_each(|(axis, value)| OutOfRange::check(format!("{name}.{axis}"), value, &COMPONENTS, unit))
+/// An error where a component of a vector is out of a range, or no number.
+pub(crate) fn check_vector(
+    name: &str,
+    vector: DVec3,
+    range: &RangeInclusive<f64>,
+    unit: &'static str,
+) -> Result<(), OutOfRange> {
+    let mut components = ["x", "y", "z"].into_iter().zip(vector.to_array());
+    components.try_for_each(|(axis, value)| OutOfRange::check(format!("{name}.{axis}"), value, range, unit))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Pin, Rule};
-    use glam::DVec2;
+    use crate::{
+        Body, Curve, Edge, EdgeRef, Garment, Mesh, MeshSequence, Motion, MovingMesh, Panel, Pin, Placement, RigidKey,
+    };
+    use crate::{RigidMotion, Rule, Seam};
+    use glam::{DQuat, DVec2, Vec3};
 
     fn scene() -> Scene {
         let sheet = Sheet {
@@ -163,6 +177,23 @@ mod tests {
                 ..Settings::new(Fabric::preset("silk").expect("known"))
             },
         }
+    }
+
+    fn cuboid() -> Mesh {
+        Mesh::cuboid(Vec3::ZERO, Vec3::ONE)
+    }
+
+    /// A triangle of which two edges are sewn together.
+    fn garment(change: impl Fn(&mut Garment)) -> Garment {
+        let edge = |start| Edge { start, curve: Curve::Straight, label: None };
+        let placement = Placement { rotation: DQuat::IDENTITY, translation: DVec3::ZERO };
+        let edges = [DVec2::ZERO, DVec2::X, DVec2::Y].map(edge).to_vec();
+        let seam = Seam { sides: [0, 1].map(|edge| EdgeRef { panel: 0, edge }), right_wrong: false };
+        let panels = vec![Panel { name: "front".to_owned(), edges, placement }];
+        let mut garment = Garment { name: "band".to_owned(), panels, seams: vec![seam], fabric: None };
+        assert_eq!(garment.check(), Ok(()));
+        change(&mut garment);
+        garment
     }
 
     #[test]
@@ -219,6 +250,33 @@ mod tests {
             said(&|scene| sheet(scene, &|sheet| sheet.columns = 1)),
             said(&|scene| sheet(scene, &|sheet| sheet.pins[0].row = 3)),
             said(&|scene| scene.bodies[0] = Body::Shape(Shape::sphere(DVec3::ZERO, -1.0))),
+            said(&|scene| scene.bodies[0] = Body::Shape(Shape::cuboid(DVec3::ZERO, DVec3::new(1.0, 0.2, 1.0), 0.11))),
+            said(&|scene| scene.bodies[0] = Body::Shape(Shape::cuboid(DVec3::ZERO, DVec3::new(1.0, 0.0, 1.0), 0.0))),
+            said(&|scene| sheet(scene, &|sheet| sheet.down = DVec3::ZERO)),
+            said(&|scene| scene.settings.wind = Some(Wind::new(DVec3::Y * 101.0))),
+            said(&|scene| scene.bodies[1] = Body::Mesh(Mesh::cuboid(Vec3::ZERO, Vec3::X * f32::NAN))),
+            said(&|scene| scene.bodies[1] = Body::Mesh(Mesh { normals: vec![Vec3::Y], ..cuboid() })),
+            said(&|scene| scene.bodies[1] = Body::Mesh(Mesh { triangles: vec![[0, 1, 24]], ..cuboid() })),
+            said(&|scene| {
+                let sequence = MeshSequence { frame_rate: 30.0, frames: vec![[vec![Vec3::ZERO], vec![Vec3::Y]]] };
+                scene.bodies[1] = Body::Moving(MovingMesh { mesh: cuboid(), motion: Motion::Sequence(sequence) });
+            }),
+            said(&|scene| {
+                let key = |time| RigidKey { time, translation: DVec3::ZERO, rotation: DQuat::IDENTITY };
+                let motion = ShapeMotion::Keys(RigidMotion { keys: vec![key(1.0), key(0.5)] });
+                scene.bodies[1] = Body::Shape(Shape { motion, ..Shape::sphere(DVec3::ZERO, 1.0) });
+            }),
+            said(&|scene| scene.cloths[0] = Cloth::Garment(garment(|garment| garment.seams[0].sides[1].edge = 3))),
+            said(&|scene| scene.cloths[0] = Cloth::Garment(garment(|garment| garment.seams[0].sides[0].panel = 1))),
+            said(&|scene| {
+                let bent = |garment: &mut Garment| garment.panels[0].edges[1].start.y = f64::INFINITY;
+                scene.cloths[0] = Cloth::Garment(garment(bent));
+            }),
+            said(&|scene| {
+                let far =
+                    |garment: &mut Garment| garment.panels[0].placement.rotation = DQuat::from_xyzw(0., 0., 0., 0.);
+                scene.cloths[0] = Cloth::Garment(garment(far));
+            }),
         ];
         assert_eq!(
             said,
@@ -231,6 +289,19 @@ mod tests {
                 "sheet flag: columns is 1 and must be 2 to 2097152",
                 "sheet flag: row of a pin is 3 and must be 0 to 2",
                 "sphere.radius is -1 and must be 0.001 to 1000 m",
+                "box.radius is 0.11 and must be 0 to 0.1 m",
+                "box.size.y is 0 and must be 0.001 to 1000 m",
+                "sheet flag: down is 0 and must be 0.999 to 1.001",
+                "wind.velocity.y is 101 and must be -100 to 100 m/s",
+                "body 1: vertex 0.x is NaN and must be -1000000 to 1000000 m",
+                "body 1: normals is 1 and must be 24 to 24",
+                "body 1: vertex of triangle 0 is 24 and must be 0 to 23",
+                "body 1: vertices of frame 0 is 1 and must be 24 to 24",
+                "sphere: time of key 1 is 0.5 and must be 1 to 1000000 s",
+                "band: edge of seam 0 is 3 and must be 0 to 2",
+                "band: panel of seam 0 is 1 and must be 0 to 0",
+                "band: panel front: start of edge 1.y is inf and must be -1000000 to 1000000 m",
+                "band: panel front: rotation is 0 and must be 0.999 to 1.001",
             ]
         );
     }

@@ -35,6 +35,7 @@ pub struct Lead {
 
 /// How a body is set elsewhere from one time to another: a point x of it goes to rotation·x + translation.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Jump {
     /// Of unit length.
     pub rotation: DQuat,

@@ -5,6 +5,8 @@
 
 mod body;
 mod check;
+mod check_body;
+mod check_garment;
 mod clip;
 mod fabric;
 mod garment;

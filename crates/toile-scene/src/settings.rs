@@ -112,6 +112,9 @@ impl Wind {
         Self { velocity, drag: 1.17, lift: 1.17, pressure: 0.0 }
     }
 
+    /// Components of velocities that air has [m/s]: no storm is faster.
+    pub const VELOCITIES: RangeInclusive<f64> = -100.0..=100.0;
+
     /// The numbers beside the velocity, by the names that scenes give them.
     pub const NUMBERS: &[Number<Self>] = &[
         Number { name: "drag", range: 0.0..=100.0, unit: "", of: |wind| &mut wind.drag },

@@ -1,10 +1,13 @@
 //! Shapes that the cloth meets exactly, without maps.
 
 use crate::{Mesh, RigidMotion};
-use glam::{DQuat, DVec3, Vec3};
+use glam::{DMat3, DQuat, DVec3, Vec3};
 
 /// Parallels of a sphere in pictures and files.
 const SPHERE_PARALLELS: u32 = 48;
+
+/// Parts of an eighth of a turn around the edges of a box there.
+const BOX_ARCS: u32 = 6;
 
 /// Side of the square that stands for a plane there [m].
 const PLANE_SIDE: f64 = 2.0;
@@ -40,6 +43,15 @@ pub enum Form {
         /// Unit normal, outward, before it turns.
         normal: DVec3,
     },
+    /// A box around the centre, its edges and corners rounded.
+    Box {
+        /// Half of its extents with the rounding [m], positive.
+        half_size: DVec3,
+        /// How it is turned before it moves.
+        rotation: DQuat,
+        /// Radius of its edges and corners [m], 0 to the smallest of the half extents.
+        radius: f64,
+    },
 }
 
 /// How a shape moves.
@@ -73,6 +85,12 @@ impl Shape {
     /// A plane at rest: a point on it [m], and its normal, outward, of any length but zero.
     pub fn plane(point: DVec3, normal: DVec3) -> Self {
         Self { form: Form::Plane { normal: normal.normalize() }, centre: point, motion: ShapeMotion::Still }
+    }
+
+    /// A box at rest, along the axes: its centre, its extents and the radius of its edges and corners [m].
+    pub fn cuboid(centre: DVec3, size: DVec3, radius: f64) -> Self {
+        let form = Form::Box { half_size: 0.5 * size, rotation: DQuat::IDENTITY, radius };
+        Self { form, centre, motion: ShapeMotion::Still }
     }
 
     /// Whether it never moves.
@@ -120,6 +138,10 @@ impl Shape {
                 radius - (from_centre - axis * place).length()
             }
             Form::Plane { normal } => -from_centre.dot(self.turn(time) * normal),
+            Form::Box { half_size, rotation, radius } => {
+                let beyond = ((self.turn(time) * rotation).inverse() * from_centre).abs() - (half_size - radius);
+                radius - beyond.max(DVec3::ZERO).length() - beyond.max_element().min(0.0)
+            }
         }
     }
 
@@ -151,6 +173,16 @@ impl Shape {
                     triangles: vec![[0, 1, 2], [0, 2, 3]],
                 }
             }
+            Form::Box { half_size, rotation, radius } => {
+                let half_size = half_size.as_vec3();
+                let mesh = match radius as f32 {
+                    0.0 => Mesh::cuboid(-half_size, half_size),
+                    radius => rounded_cuboid(half_size - radius, radius),
+                };
+                let mut mesh = mesh.turned(DMat3::from_quat(self.turn(time) * rotation));
+                mesh.positions.iter_mut().for_each(|position| *position += centre);
+                mesh
+            }
         }
     }
 
@@ -160,15 +192,49 @@ impl Shape {
             Form::Sphere { .. } => "sphere",
             Form::Capsule { .. } => "capsule",
             Form::Plane { .. } => "plane",
+            Form::Box { .. } => "box",
         }
     }
 }
 
+/// All that lies within a radius of a box around the origin of these half extents [m].
+fn rounded_cuboid(core: Vec3, radius: f32) -> Mesh {
+    let mut mesh = Mesh::default();
+    // The middle of a face stands there twice, so that what is flat lies between.
+    let half = |side: f32| {
+        (0..=BOX_ARCS).map(move |k| (side, k as f32 / BOX_ARCS as f32 - if side < 0.0 { 1.0 } else { 0.0 }))
+    };
+    let places: Vec<(f32, f32)> = half(-1.0).chain(half(1.0)).collect();
+    let slope = |place: f32| (place * std::f32::consts::FRAC_PI_4).tan();
+    for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
+        for out in [axis, -axis] {
+            let right = Vec3::new(axis.z, axis.x, axis.y);
+            let up = out.cross(right);
+            let first = mesh.positions.len() as u32;
+            for &(v_side, v) in &places {
+                for &(u_side, u) in &places {
+                    let normal = (out + right * slope(u) + up * slope(v)).normalize();
+                    mesh.positions.push((out + right * u_side + up * v_side) * core + normal * radius);
+                    mesh.normals.push(normal);
+                }
+            }
+            let width = places.len() as u32;
+            for row in 0..width - 1 {
+                for a in (0..width - 1).map(|column| first + row * width + column) {
+                    mesh.triangles.extend([[a, a + 1, a + width + 1], [a, a + width + 1, a + width]]);
+                }
+            }
+        }
+    }
+    mesh
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{Shape, ShapeMotion};
+    use super::{Form, Shape, ShapeMotion};
     use crate::{RigidKey, RigidMotion};
     use glam::{DQuat, DVec3, dvec3};
+    use std::f64::consts::PI;
 
     #[test]
     fn every_motion_has_its_derivative() {
@@ -202,15 +268,36 @@ mod tests {
         };
         let motion = ShapeMotion::Keys(RigidMotion { keys: vec![key(0.0, 0.0), key(2.0, 2.0)] });
         let ends = [dvec3(0.1, 0.2, 0.3), dvec3(0.4, -0.5, 0.3)];
-        for shape in [Shape::sphere(DVec3::X, 0.3), Shape::capsule(ends, 0.1), Shape::plane(ends[0], ends[1])] {
+        let turned = |radius| {
+            let (half_size, rotation) = (dvec3(0.1, 0.2, 0.15), DQuat::from_rotation_z(0.4));
+            Shape { form: Form::Box { half_size, rotation, radius }, ..Shape::sphere(DVec3::Y, 0.1) }
+        };
+        let boxes = [turned(0.0), turned(0.04), turned(0.1)];
+        let others = [Shape::sphere(DVec3::X, 0.3), Shape::capsule(ends, 0.1), Shape::plane(ends[0], ends[1])];
+        for shape in others.into_iter().chain(boxes) {
             let shape = Shape { motion: motion.clone(), ..shape };
             let mesh = shape.mesh(0.7);
             for (position, normal) in mesh.positions.iter().zip(&mesh.normals) {
                 let depth = |way: f32| shape.depth((*position + *normal * way).as_dvec3(), 0.7);
                 assert!(depth(0.0).abs() < 1e-6 && (depth(0.01) + 0.01).abs() < 1e-6, "{shape:?}: {position}");
             }
-            let [a, b, c] = mesh.triangles[0].map(|vertex| mesh.positions[vertex as usize]);
-            assert!((b - a).cross(c - a).dot(mesh.normals[0]) > 0.0, "{shape:?} faces outward");
+            for triangle in &mesh.triangles {
+                let [a, b, c] = triangle.map(|vertex| mesh.positions[vertex as usize]);
+                let out = (b - a).cross(c - a);
+                assert!(
+                    out.length() < 1e-8 || out.dot(mesh.normals[triangle[0] as usize]) > 0.0,
+                    "{shape:?} faces outward"
+                );
+            }
+            if let Form::Box { half_size, radius, .. } = shape.form {
+                // Steiner: the core, slabs on its faces, quarters of cylinders on its edges, and a ball.
+                let core = 2.0 * (half_size - radius);
+                let faces = 2.0 * (core.x * core.y + core.y * core.z + core.z * core.x) * radius;
+                let edges = PI * radius * radius * core.element_sum();
+                let exact = core.element_product() + faces + edges + 4.0 / 3.0 * PI * radius.powi(3);
+                let volume = mesh.signed_volume();
+                assert!((volume / exact - 1.0).abs() < 5e-3, "{shape:?} is closed: {volume} m³, not {exact}");
+            }
         }
     }
 }

@@ -42,6 +42,16 @@ impl Clock {
         Self { done: self.done * ratio, ..*self }
     }
 
+    /// The same clock once so many more parts are done than were asked for.
+    pub(crate) fn ahead(&self, parts: u64) -> Self {
+        Self { done: self.done + parts, ..*self }
+    }
+
+    /// The same clock in parts of which each has `ratio` of the present ones; a part that has begun counts as done.
+    pub(crate) fn in_longer_parts(&self, ratio: u64) -> Self {
+        Self { done: self.done.div_ceil(ratio), ..*self }
+    }
+
     /// Simulated time asked for [s].
     pub(crate) fn asked(&self) -> f64 {
         self.asked

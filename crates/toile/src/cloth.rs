@@ -1,11 +1,14 @@
 //! One cloth, simulated on the caller's device.
 
 use crate::{Error, Frame, Strain};
+#[cfg(feature = "native-wait")]
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
-use toile_gpu::{BodyMaps, Kernel, Kernels, Mark, PassTime, Plan, Solver, Timer};
-use toile_model::{Merge, Model, PinTarget, Status, StepSettings};
+use toile_gpu::{BodyMaps, Kernels, Mark, Plan, Solver};
+#[cfg(feature = "native-wait")]
+use toile_gpu::{Kernel, PassTime, Timer};
+use toile_model::{Merge, Model, ModelError, PinTarget, Status, StepSettings};
 use toile_scene::Shape;
 use wgpu::util::DeviceExt;
 
@@ -55,7 +58,8 @@ impl Cloth {
     /// A cloth at the start of its model; `kernels` is a device, or the pipelines that other cloths on it use.
     ///
     /// # Errors
-    /// [`Error::Gpu`] when the model does not fit the device, or the device has less than the default limits of WebGPU.
+    /// [`Error::Model`] when a number of the step or of a shape is out of its range. [`Error::Gpu`] when the model does not fit the device, or the device has
+    /// less than the default limits of WebGPU.
     ///
     /// # Panics
     /// When the settings have the rule [`Rule::Hierarchical`](toile_scene::Rule::Hierarchical) and the model was made for another one, or a polish
@@ -67,6 +71,8 @@ impl Cloth {
         colliders: Colliders,
     ) -> Result<Self, Error> {
         let kernels = kernels.into();
+        settings.check().map_err(ModelError::from)?;
+        colliders.shapes.iter().try_for_each(Shape::check).map_err(ModelError::from)?;
         let solver = Solver::new(&kernels, model, settings, colliders.borrowed())?;
         Ok(Self::with_solver(kernels.device(), model, solver, colliders))
     }
@@ -142,13 +148,14 @@ impl Cloth {
     /// [`StepSettings::with_numbers_of`] makes them.
     ///
     /// # Panics
-    /// When anything else changes, or a cloth without air or pressure would get it: passes of a step stay as they are.
+    /// When a number is out of its range, anything else changes, or a cloth without air or pressure would get it: passes of a step stay as they are.
     pub fn record_settings(
         &mut self,
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
         settings: &StepSettings,
     ) {
+        settings.check().unwrap_or_else(|error| panic!("{error}"));
         self.solver.record_settings(device, encoder, settings);
     }
 
@@ -173,8 +180,9 @@ impl Cloth {
     /// Has other shapes from the next step on, as many as before. Each moves on the clock of the cloth: its steps so far, times their length.
     ///
     /// # Panics
-    /// When there are more shapes than before, or fewer.
+    /// When there are more shapes than before, or fewer, or a number of one is out of its range.
     pub fn set_shapes(&mut self, shapes: Vec<Shape>) {
+        shapes.iter().try_for_each(Shape::check).unwrap_or_else(|error| panic!("{error}"));
         self.colliders.shapes.clone_from(&shapes);
         self.solver.set_shapes(shapes);
     }
@@ -269,6 +277,7 @@ impl Cloth {
     ///
     /// # Errors
     /// [`Error::Gpu`] when the device is lost.
+    #[cfg(feature = "native-wait")]
     pub fn time_step(
         &mut self,
         device: &wgpu::Device,

@@ -89,7 +89,7 @@ impl Simulation {
     }
 
     /// Has all go on in an outfit of the present settings and shapes.
-    fn go_on_in_new_buffers(&mut self, encoder: &mut wgpu::CommandEncoder) -> Result<(), Error> {
+    pub(crate) fn go_on_in_new_buffers(&mut self, encoder: &mut wgpu::CommandEncoder) -> Result<(), Error> {
         let Phase::Together { outfit: before, stage, garment_bounds } = &self.phase else { return Ok(()) };
         let mut outfit = self.outfit(*stage, garment_bounds)?;
         outfit.go_on_from(encoder, before)?;
@@ -155,7 +155,7 @@ impl Simulation {
         outfit.carry_by(&device, encoder, way);
     }
 
-    /// Takes a garment or sheet off, by its place in [`Simulation::cloths`]: what lay over it falls on what is below. To put one on, begin a new simulation.
+    /// Takes a garment or sheet off, by its place in [`Simulation::cloths`]: what lay over it falls on what is below. [`Simulation::put_on`] is the way back.
     ///
     /// # Panics
     /// Before the run, when there is no such cloth, or when it is the only one.
@@ -201,10 +201,14 @@ impl Simulation {
     /// As [`Simulation::set_control`].
     ///
     /// # Panics
-    /// Before the run, and when a cloth was taken off since.
+    /// Before the run, and when a cloth was taken off or put on since.
     pub fn reset(&mut self, encoder: &mut wgpu::CommandEncoder, checkpoint: &Checkpoint) -> Result<(), Error> {
         let outfit = self.running("it goes back to a checkpoint");
-        assert_eq!(checkpoint.marks.len(), outfit.cloths().len(), "a cloth that was taken off does not come back");
+        assert_eq!(
+            checkpoint.marks.len(),
+            outfit.cloths().len(),
+            "a checkpoint is of the cloths that there are: none was taken off or put on since"
+        );
         outfit.set_place(checkpoint.place);
         if let Some(middle) = checkpoint.middle {
             outfit.stand_around(middle);
@@ -218,7 +222,7 @@ impl Simulation {
         self.set_control(encoder, &checkpoint.control)
     }
 
-    fn running(&mut self, what: &str) -> &mut Outfit {
+    pub(crate) fn running(&mut self, what: &str) -> &mut Outfit {
         match &mut self.phase {
             Phase::Together { outfit, stage: Stage::Running, .. } => outfit,
             _ => panic!("{what} once the run has begun"),

@@ -21,6 +21,7 @@ pub(crate) struct Done {
     pub(crate) cloth: Cloth,
     pub(crate) dressing: Dressing,
     /// How its particles moved at last [m/s], shape [particle_count]; empty where that is not known.
+    #[cfg_attr(not(feature = "native-wait"), expect(dead_code, reason = "only what waits for the device reads it"))]
     pub(crate) velocities: Vec<Vec3>,
     pub(crate) bounds: Bounds,
 }

@@ -11,7 +11,7 @@ pub enum Error {
     Gpu(#[from] toile_gpu::GpuError),
     /// What stands in the way of sewing cannot be mended.
     #[error(transparent)]
-    Fit(#[from] toile_model::FitError),
+    Fit(toile_model::FitError),
     /// The cloth cannot be meshed.
     #[error(transparent)]
     Model(#[from] toile_model::ModelError),
@@ -49,6 +49,9 @@ pub enum Error {
         /// How far [m].
         outside: f32,
     },
+    /// What another simulation has dressed is not of this one, or its body stands elsewhere.
+    #[error("the cloth cannot be put on: {0}")]
+    PutOn(String),
     /// A saved state is not one of this simulation.
     #[error("the saved state cannot be restored: {0}")]
     State(String),
@@ -64,4 +67,14 @@ pub enum Error {
         /// Number of particles.
         count: u32,
     },
+}
+
+impl From<toile_model::FitError> for Error {
+    fn from(error: toile_model::FitError) -> Self {
+        match error {
+            // A number out of its range is the same fault, whoever meets it first.
+            toile_model::FitError::Range(range) => Self::Model(range.into()),
+            other => Self::Fit(other),
+        }
+    }
 }

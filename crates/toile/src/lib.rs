@@ -18,11 +18,14 @@ mod layer;
 mod outfit;
 mod pins;
 mod pose;
+mod put_on;
 mod simulation;
 mod stage;
 mod state;
 mod strain;
 mod told;
+#[cfg(feature = "native-wait")]
+mod verdicts;
 
 pub use glam;
 pub use wgpu;

@@ -399,11 +399,47 @@ impl Outfit {
             self.stand_around(middle);
         }
         self.teleports.clone_from(&before.teleports);
-        self.resume(before.done);
+        self.resume(before.done * self.parts_of_interval() / before.parts_of_interval());
         for (layer, from) in self.layers.iter_mut().zip(before.cloths()) {
             from.record_state(encoder, &layer.cloth);
             layer.cloth.resume(from.step(), from.status()?);
             // A renderer may draw it before the next step.
+            layer.cloth.record_normals(encoder);
+        }
+        Ok(())
+    }
+
+    /// Parts that are still to do of the interval that has begun; none where cloths go on by whole intervals.
+    pub(crate) fn rest_of_interval(&self) -> u64 {
+        self.done.next_multiple_of(self.parts_of_interval()) - self.done
+    }
+
+    /// Parts of an interval of the maps.
+    pub(crate) fn parts_of_interval(&self) -> u64 {
+        (self.interval_seconds() / self.part_seconds()).round() as u64
+    }
+
+    /// Intervals done, with the one that has begun.
+    pub(crate) fn intervals(&self) -> u64 {
+        self.done.div_ceil(self.parts_of_interval())
+    }
+
+    /// Has its outer cloths, from this one on, be as they are in another outfit, which is at the same time where bodies stand at `place`.
+    pub(crate) fn take_over(
+        &mut self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        first: usize,
+        from: &Outfit,
+    ) -> Result<(), Error> {
+        let way = self.place - from.place;
+        for (layer, from) in self.layers.iter_mut().zip(&from.layers).skip(first) {
+            from.cloth.record_state(encoder, &layer.cloth);
+            layer.cloth.resume(from.cloth.step(), from.cloth.status()?);
+            layer.pins = from.pins.clone();
+            if layer.is_worn && way != DVec3::ZERO {
+                layer.cloth.record_carry(device, encoder, DMat4::from_translation(way));
+            }
             layer.cloth.record_normals(encoder);
         }
         Ok(())

@@ -59,7 +59,7 @@ pub struct Simulation {
     /// What was found before sewing.
     pub(crate) findings: Vec<Finding>,
     /// Where the maps of the run stand, if its bodies decide that.
-    boxes: Option<Boxes>,
+    pub(crate) boxes: Option<Boxes>,
     pub(crate) pieces: Vec<Piece>,
     /// What the pieces are made of.
     pub(crate) scene_cloths: Vec<Cut>,
@@ -151,8 +151,7 @@ impl Simulation {
         };
         if !simulation.bodies.moving.is_empty() {
             // Before any work: a body may lead to no map_box.
-            let bodies = &simulation.bodies;
-            simulation.boxes = Some(simulation.boxes_of(&bodies.moving, &bounds_of(&bodies.still))?);
+            simulation.boxes = Some(simulation.boxes_of_all()?);
         }
         Ok(simulation)
     }
@@ -178,6 +177,7 @@ impl Simulation {
     ///
     /// # Errors
     /// As [`Simulation::advance`].
+    #[cfg(feature = "native-wait")]
     pub fn advance_timed(&mut self, queue: &wgpu::Queue, seconds: f64) -> Result<(Advance, [f64; 2]), Error> {
         let device = self.device.clone();
         let mut milliseconds = [0.0; 2];
@@ -381,6 +381,11 @@ impl Simulation {
         self.pieces.iter().map(|piece| piece.step.thickness).fold(0.0, f32::max)
     }
 
+    /// Where the maps of the run stand, as its bodies decide it.
+    pub(crate) fn boxes_of_all(&self) -> Result<Boxes, Error> {
+        self.boxes_of(&self.bodies.moving, &bounds_of(&self.bodies.still))
+    }
+
     fn boxes_of(&self, moving: &[MovingMesh], still: &[[Vec3; 2]]) -> Result<Boxes, Error> {
         Boxes::new(moving, still, self.settings.texel as f32, self.thickness(), self.pieces.len() > 1)
     }
@@ -414,6 +419,8 @@ impl Simulation {
                 }
             }
         })?;
+        // A renderer may draw them before the first step.
+        recorder(Part::Steps, &mut |encoder| outfit.cloths().for_each(|cloth| cloth.record_normals(encoder)))?;
         if self.keeps_maps && stage == Stage::Running {
             outfit.keep_maps(&self.kernels, &self.bodies.moving[0], recorder)?;
         }

@@ -10,6 +10,7 @@ use crate::stage::Stage;
 use crate::{Cloth, Colliders, Error};
 use glam::{DVec3, Vec3};
 use serde::{Deserialize, Serialize};
+#[cfg(feature = "native-wait")]
 use toile_gpu::readback;
 use toile_model::{Dressing, DressingStage, Motion, Piece, Status, digest_of};
 
@@ -78,6 +79,7 @@ impl Simulation {
     ///
     /// # Errors
     /// [`Error::Gpu`] when the device is lost, [`Error::Diverged`] when a particle is not finite.
+    #[cfg(feature = "native-wait")]
     pub fn save(&self, queue: &wgpu::Queue) -> Result<Vec<u8>, Error> {
         let save = |cloth: &Cloth, dressing: Option<SavedDressing>| -> Result<SavedCloth, Error> {
             let read = |(name, buffer): (&'static str, &wgpu::Buffer)| {

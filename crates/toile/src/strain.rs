@@ -8,7 +8,7 @@ pub struct Strain {
     pub step: u64,
     /// Largest elongation [1]; 0 when no spring is longer than its rest length.
     pub elongation_max: f32,
-    /// The spring that has it, as an index into [`Model::limits`](toile_model::Model::limits), which names its particles.
+    /// The spring that has it, as an index into [`Arrays::limits`](toile_model::Arrays::limits), which names its particles.
     pub longest_limit: Option<u32>,
     /// Number of springs whose elongation is above the threshold along them.
     pub over_long_count: u32,

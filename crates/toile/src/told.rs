@@ -1,14 +1,12 @@
 //! What a simulation tells: how the garments are dressed and worn, where all stands, and since when.
 
-use crate::dressed::Done;
+use crate::Cloth;
 use crate::outfit::Teleport;
 use crate::simulation::{Phase, Simulation, Worn};
 use crate::stage::Stage;
-use crate::{Cloth, Error};
-use glam::{DVec3, Vec3};
-use toile_gpu::{Surface, readback};
-use toile_model::{Dressing, DressingStage, Finding, Judged, MapBox, Piece, Solid, Verdict};
-use toile_scene::Mesh;
+use glam::DVec3;
+use toile_gpu::Surface;
+use toile_model::{Dressing, DressingStage, Finding, MapBox};
 
 impl Simulation {
     /// What was found before sewing, and what was mended.
@@ -65,32 +63,6 @@ impl Simulation {
             let fitting = dressed.fitting.iter().map(|fitting| &fitting.dressing);
             dressed.done.iter().map(|done| &done.dressing).chain(fitting)
         })
-    }
-
-    /// How the garments are worn that are dressed, from the inside out, on the bodies as they are dressed; empty once all go together. A host asks
-    /// at [`Stage::Dressed`]. Waits for the device; what was recorded must have been submitted.
-    ///
-    /// # Errors
-    /// [`Error::Gpu`] when the device is lost.
-    pub fn verdicts(&self, queue: &wgpu::Queue) -> Result<Vec<Verdict>, Error> {
-        let Phase::Dressing(dressed) = &self.phase else { return Ok(Vec::new()) };
-        let shapes: Vec<Mesh> = self.bodies.shapes.iter().map(|shape| shape.mesh(0.0)).collect();
-        let body = Solid::of(self.dressing_meshes().into_iter().chain(&shapes));
-        let read = |buffer: &wgpu::Buffer| -> Result<Vec<Vec3>, Error> {
-            let values = readback::read_vec4s(&self.device, queue, buffer)?;
-            Ok(values.into_iter().map(|value| value.truncate()).collect())
-        };
-        let garments = self.pieces.iter().filter(|piece| piece.open.is_some());
-        let verdict = |(piece, Done { cloth, dressing, velocities, .. }): (&Piece, &Done)| -> Result<Verdict, Error> {
-            let positions = read(&cloth.frame().positions)?;
-            let velocities = match velocities.as_slice() {
-                [] => &read(cloth.velocities())?,
-                seen => seen,
-            };
-            let (model, is_at_rest) = (&piece.model, dressing.is_at_rest());
-            Ok(Verdict::of(&Judged { model, positions: &positions, velocities, is_at_rest }, &body))
-        };
-        garments.zip(&dressed.done).map(verdict).collect()
     }
 
     /// The bodies on the device as the maps draw them, at [`Simulation::body_time`]: those at rest, then those that move; none while garments

@@ -174,7 +174,7 @@ impl ClothPlan {
 }
 
 fn kernels(passes: &[Pass]) -> Vec<KernelPlan> {
-    let plan = |KernelRuns { kernel, runs, dispatches, items }| KernelPlan {
+    let plan = |KernelRuns { kernel, runs, dispatches, items, .. }| KernelPlan {
         kernel: Kernel::name(kernel),
         runs,
         dispatches,

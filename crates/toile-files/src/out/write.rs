@@ -22,10 +22,18 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
 pub(crate) fn temporary_beside(path: &Path) -> std::io::Result<tempfile::NamedTempFile> {
     let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    give_usual_rights(&mut builder);
     builder.tempfile_in(folder)
 }
+
+#[cfg(unix)]
+fn give_usual_rights(builder: &mut tempfile::Builder) {
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+}
+
+/// Other systems know no such rights.
+#[cfg(not(unix))]
+fn give_usual_rights(_: &mut tempfile::Builder) {}
 
 /// Writes a mesh as OBJ [m] with normals.
 ///

@@ -7,12 +7,12 @@ use crate::body::{BodyOptions, read_body};
 use crate::error::Found;
 use crate::scene::problem::Problem;
 use crate::scene::scene_toml::{
-    BodyToml, CapsuleToml, KeyToml, PlaneToml, SceneToml, SphereToml, SwingToml, UnitsToml,
+    BodyToml, BoxToml, CapsuleToml, KeyToml, PlaneToml, SceneToml, SphereToml, SwingToml, UnitsToml,
 };
 use crate::scene::value::{SIZES, vector, within, wrong};
 use glam::{DQuat, DVec3};
 use std::path::Path;
-use toile_scene::{Body, MovingMesh, RigidKey, RigidMotion, Settings, Shape, ShapeMotion};
+use toile_scene::{Body, Form, MovingMesh, RigidKey, RigidMotion, Settings, Shape, ShapeMotion};
 
 /// Reads a body of a scene; the second part is what is unusual about it.
 pub(crate) fn convert_body(index: usize, toml: &BodyToml, folder: &Path) -> Result<(Body, Vec<String>), Problem> {
@@ -72,7 +72,8 @@ pub(crate) fn convert_shapes(toml: &SceneToml) -> Result<Vec<Shape>, Found> {
     let spheres = toml.sphere.iter().enumerate().map(|(index, sphere)| convert_sphere(index, sphere));
     let capsules = toml.capsule.iter().enumerate().map(|(index, capsule)| convert_capsule(index, capsule));
     let planes = toml.plane.iter().enumerate().map(|(index, plane)| convert_plane(index, plane));
-    spheres.chain(capsules).chain(planes).collect()
+    let boxes = toml.cuboid.iter().enumerate().map(|(index, cuboid)| convert_box(index, cuboid));
+    spheres.chain(capsules).chain(planes).chain(boxes).collect()
 }
 
 /// Converts a sphere of a scene.
@@ -105,6 +106,27 @@ fn convert_plane(index: usize, toml: &PlaneToml) -> Result<Shape, Found> {
     Ok(Shape { motion, ..Shape::plane(vector(&key("point"), toml.point)?, normal) })
 }
 
+/// Converts a box of a scene.
+fn convert_box(index: usize, toml: &BoxToml) -> Result<Shape, Found> {
+    let key = |name: &str| format!("box.{index}.{name}");
+    let motion = convert_motion(&key, &toml.swing, &toml.keys)?;
+    for size in toml.size {
+        within(&key("size"), size, SIZES, "m")?;
+    }
+    let half_size = 0.5 * DVec3::from(toml.size);
+    let radius = within(&key("radius"), toml.radius.unwrap_or(0.0), 0.0..=half_size.min_element(), "m")?;
+    let rotation = convert_rotation(&key("rotation"), toml.rotation)?;
+    Ok(Shape { form: Form::Box { half_size, rotation, radius }, centre: vector(&key("centre"), toml.centre)?, motion })
+}
+
+/// Converts an axis and an angle in degrees.
+fn convert_rotation(key: &str, toml: Option<[f64; 4]>) -> Result<DQuat, Found> {
+    let Some([x, y, z, degrees]) = toml else { return Ok(DQuat::IDENTITY) };
+    let axis = vector(key, [x, y, z])?.try_normalize().filter(|_| degrees.is_finite());
+    let axis = axis.ok_or_else(|| wrong(key, "it must be an axis x, y, z and an angle in degrees"))?;
+    Ok(DQuat::from_axis_angle(axis, degrees.to_radians()))
+}
+
 /// Converts the motion of a shape, whose keys `key` names.
 fn convert_motion(
     key: &impl Fn(&str) -> String,
@@ -134,16 +156,7 @@ fn convert_keys(key: &str, toml: &[KeyToml]) -> Result<Vec<RigidKey>, Found> {
             let message = format!("it is {} and must be a time after the key before", entry.time);
             return Err(wrong(&name("time"), message));
         }
-        let rotation = match entry.rotation {
-            None => DQuat::IDENTITY,
-            Some([x, y, z, degrees]) => {
-                let axis = vector(&name("rotation"), [x, y, z])?.try_normalize();
-                let Some(axis) = axis.filter(|_| degrees.is_finite()) else {
-                    return Err(wrong(&name("rotation"), "it must be an axis x, y, z and an angle in degrees"));
-                };
-                DQuat::from_axis_angle(axis, degrees.to_radians())
-            }
-        };
+        let rotation = convert_rotation(&name("rotation"), entry.rotation)?;
         let turn = number.checked_sub(1).map_or(0.0, |last| turn_between(toml[last].rotation, entry.rotation));
         if turn >= 180.0 {
             let message = format!(

@@ -36,6 +36,8 @@ pub(crate) struct SceneToml {
     pub capsule: Vec<CapsuleToml>,
     #[serde(default)]
     pub plane: Vec<PlaneToml>,
+    #[serde(default, rename = "box")]
+    pub cuboid: Vec<BoxToml>,
 }
 
 #[derive(Clone, Copy, Deserialize)]
@@ -243,6 +245,20 @@ pub(crate) struct CapsuleToml {
 pub(crate) struct PlaneToml {
     pub point: [f64; 3],
     pub normal: [f64; 3],
+    pub swing: Option<SwingToml>,
+    pub keys: Option<Vec<KeyToml>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BoxToml {
+    pub centre: [f64; 3],
+    /// Its extents with the rounding.
+    pub size: [f64; 3],
+    /// That of its edges and corners.
+    pub radius: Option<f64>,
+    /// An axis and an angle in degrees.
+    pub rotation: Option<[f64; 4]>,
     pub swing: Option<SwingToml>,
     pub keys: Option<Vec<KeyToml>>,
 }

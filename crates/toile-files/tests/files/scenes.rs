@@ -217,7 +217,7 @@ fn wrong_overrides_name_the_key_and_what_there_is() {
         })
         .collect();
     insta::assert_snapshot!(messages.join("\n"), @r#"
-    hang.toml, key "speed": unknown field `speed`, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `wind`, `spacing`, `maps`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `polish`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`, `capsule`, `plane`
+    hang.toml, key "speed": unknown field `speed`, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `wind`, `spacing`, `maps`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `polish`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`, `capsule`, `plane`, `box`
     hang.toml, key "fabric": unknown field `colour`, expected one of `base`, `name`, `areal_density`, `structural_stiffness`, `shear_stiffness`, `bend_stiffness`, `bending_rigidity`, `damping`, `thickness`, `friction`, `threshold`
     hang.toml, key "n": it is 1 and must be 2 to 2097152
     hang.toml, key "n": 8192 × 8192 particles are more than 4194304
@@ -261,7 +261,7 @@ fn wrong_overrides_name_the_key_and_what_there_is() {
     hang.toml, key "wind.drag": it is -1 and must be 0 to 100
     hang.toml, key "wind.lift": it is inf and must be 0 to 100
     hang.toml, key "name.first": invalid type: map, expected a string
-    hang.toml, key "": unknown field ``, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `wind`, `spacing`, `maps`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `polish`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`, `capsule`, `plane`
+    hang.toml, key "": unknown field ``, expected one of `name`, `n`, `frames`, `frame_rate`, `gravity`, `wind`, `spacing`, `maps`, `texel`, `safety`, `swept`, `reflection`, `rule`, `sweeps`, `polish`, `friction`, `fabric`, `sheet`, `garment`, `body`, `sphere`, `capsule`, `plane`, `box`
     "#);
 }
 
@@ -397,6 +397,23 @@ fn a_scene_has_any_number_of_shapes() {
     write(at, "scene.toml", &format!("{SHEET}[[plane]]\npoint = [0, 1, 0]\nnormal = [0, 0, 0]\n"));
     let error = read_scene(&at.join("scene.toml"), &[]).expect_err("no direction").to_string();
     assert!(error.ends_with("key \"plane.0.normal\": it must be a direction out of the plane, not zero"), "{error}");
+    let table = "[[box]]\ncentre = [0, 1, 0]\nsize = [0.2, 0.4, 2]\n";
+    write(at, "scene.toml", &format!("{SHEET}{table}radius = 0.1\nrotation = [0, 0, 1, 90]\n{table}"));
+    let bodies = read_scene(&at.join("scene.toml"), &[]).expect("the scene").scene.bodies;
+    let [Body::Shape(rounded), Body::Shape(sharp)] = &bodies[..] else { panic!("two boxes") };
+    assert_eq!((rounded.name(), sharp.name(), sharp.centre), ("box", "box", DVec3::Y));
+    // It lies on its side: half of its height along x, and rounded as far as it is thick.
+    let depth = |x: f64, y: f64| rounded.depth(DVec3::new(x, 1.0 + y, 0.0), 0.0);
+    assert!((depth(0.25, 0.0) + 0.05).abs() < 1e-12 && (depth(0.2, 0.1) - 0.1 + 0.02f64.sqrt()).abs() < 1e-12);
+    assert!((sharp.depth(DVec3::new(0.1, 1.2, 1.0), 0.0)).abs() < 1e-12, "a sharp corner");
+    for (line, said) in [
+        ("radius = 0.11\n", "key \"box.0.radius\": it is 0.11 and must be 0 to 0.1 m"),
+        ("rotation = [0, 0, 0, 1]\n", "key \"box.0.rotation\": it must be an axis x, y, z and an angle in degrees"),
+    ] {
+        write(at, "scene.toml", &format!("{SHEET}{table}{line}"));
+        let error = read_scene(&at.join("scene.toml"), &[]).expect_err("no box has it").to_string();
+        assert!(error.ends_with(said), "{error}");
+    }
     write(at, "scene.toml", &format!("{SHEET}[[capsule]]\nends = [[0, 1, 0], [0, 1, 0]]\nradius = 0.2\n"));
     let error = read_scene(&at.join("scene.toml"), &[]).expect_err("its ends are one").to_string();
     assert!(

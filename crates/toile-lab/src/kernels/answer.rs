@@ -1,7 +1,7 @@
 //! What the reference makes of an input.
 
 use super::Input;
-use toile::model::Model;
+use toile::model::Arrays;
 use toile_kernels::Kernel;
 use toile_reference::{Probe, frame, maps, step};
 
@@ -22,7 +22,7 @@ pub fn answer(kernel: Kernel, input: &mut Input) {
         }
         Kernel::PressureForces => {
             let pressure = settings.wind.expect("the input has wind").pressure as f32;
-            let Model { quads, particle_quads, .. } = &before.model;
+            let Arrays { quads, particle_quads, .. } = &before.model;
             step::pressure_forces(&mut input.forces, &particles.positions, quads, particle_quads, pressure);
         }
         Kernel::Reaction => step::reaction(&mut input.forces, particles, &before.contacts, settings),

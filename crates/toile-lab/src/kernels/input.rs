@@ -7,7 +7,7 @@ use glam::{Vec3, Vec4};
 use std::ops::Range;
 use toile::gpu::BodyMaps;
 use toile::gpu::contents::{Encode, constant, encoded, floats, uniform, with_w, words};
-use toile::model::{Csr, Limit, Model, PinTarget, SeamPair, ShapeStep, StepSettings};
+use toile::model::{Arrays, Csr, Limit, PinTarget, SeamPair, ShapeStep, StepSettings};
 use toile::scene::{Polish, Pose, Skin};
 use toile_kernels::structs;
 use toile_reference::step::PolishState;
@@ -33,7 +33,7 @@ pub struct Input {
     /// Force of the air on each quad [N].
     pub quad_winds: Vec<Vec3>,
     /// What does not change: springs, limits, seams and cells. Where its particles are at rest does not matter.
-    pub model: Model,
+    pub model: Arrays,
     /// What limits gave the particles [m/s].
     pub pulls: Vec<Vec3>,
     /// The items of the colour that the dispatch works on.

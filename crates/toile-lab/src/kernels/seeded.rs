@@ -2,11 +2,12 @@
 
 use super::input::{Input, Posed};
 use super::seeded_levels::{BESIDE, levels};
+use crate::fixtures::free_particle;
 use crate::{DrawnMaps, Gpu, Random};
 use glam::{DVec3, Mat4, Quat, Vec3, Vec4, dvec3, vec3};
 use toile::gpu::{GpuError, MapSpace, Surface};
 use toile::model::{
-    Attachment, Csr, Hold, Limit, Link, MapBox, Model, NO_CORNER, PinTarget, SeamPair, ShapeKind, ShapeStep,
+    Arrays, Attachment, Csr, Hold, Limit, Link, MapBox, NO_CORNER, PinTarget, SeamPair, ShapeKind, ShapeStep,
     StepSettings,
 };
 use toile::scene::{
@@ -105,7 +106,7 @@ impl Seeds {
                 Domain::Workgroup => 64,
                 _ => items,
             },
-            shapes: shapes(),
+            shapes: shapes(kernel),
             after_maps: variant != Variant::Weightless,
             lag: Lag::of(3, 8, settings.dt),
             sides: sides.clone(),
@@ -125,7 +126,7 @@ impl Seeds {
             quad_winds: (0..counts.quads).map(|_| random.vector(0.02)).collect(),
             forces: (0..counts.particles).map(|i| force(random, i, &contacts[i as usize])).collect(),
             pulls: pulls(&mut Random::new(!self.seed ^ u64::from(items) ^ 1), counts.particles),
-            model: Model {
+            model: Arrays {
                 positions: particles.positions.clone(),
                 masses: particles.masses.clone(),
                 links: links(random, counts.particles),
@@ -142,7 +143,7 @@ impl Seeds {
                 holds,
                 held_particles,
                 quads,
-                ..Model::default()
+                ..Arrays::default()
             },
             span,
             nodes: levels.nodes,
@@ -226,7 +227,7 @@ fn particle_quads(random: &mut Random, counts: &Counts) -> Csr<u32> {
 
 /// Spheres: one alone, two that mirror each other, and four in one place that move differently; a capsule and a plane. Of those that are
 /// equally near now an earlier one answers, now a later one.
-fn shapes() -> Vec<ShapeStep> {
+fn shapes(kernel: Kernel) -> Vec<ShapeStep> {
     let sphere = ShapeStep {
         kind: ShapeKind::Sphere,
         centre: vec3(0.1, 0.0, -0.05),
@@ -234,6 +235,7 @@ fn shapes() -> Vec<ShapeStep> {
         velocity: vec3(0.5, 0.0, 0.2),
         spin: vec3(0.3, -1.0, 2.0),
         axis: Vec3::ZERO,
+        turn: [Vec3::X, Vec3::Y],
     };
     let mirrored = [1.0, -1.0].map(|side| ShapeStep {
         centre: vec3(MIRROR.x + side * 0.125, MIRROR.y, MIRROR.z),
@@ -255,6 +257,7 @@ fn shapes() -> Vec<ShapeStep> {
         velocity: vec3(0.2, -0.4, 0.1),
         spin: vec3(-2.0, 1.0, 3.0),
         axis: vec3(0.15, 0.1, -0.2),
+        ..sphere
     };
     let plane = ShapeStep {
         kind: ShapeKind::Plane,
@@ -263,8 +266,21 @@ fn shapes() -> Vec<ShapeStep> {
         velocity: vec3(0.3, 0.1, -0.2),
         spin: vec3(0.1, 0.4, -0.2),
         axis: vec3(0.1, 1.0, -0.15).normalize(),
+        ..sphere
     };
-    [[sphere].as_slice(), &mirrored, &alike, &[capsule, plane]].concat()
+    let turned = glam::Quat::from_axis_angle(vec3(0.6, 0.0, 0.8), 0.7);
+    let rounded = ShapeStep {
+        kind: ShapeKind::Box,
+        centre: vec3(-0.3, -0.2, 0.1),
+        radius: 0.05,
+        velocity: vec3(-0.3, 0.2, 0.4),
+        spin: vec3(1.5, -2.0, 0.7),
+        axis: vec3(0.16, 0.1, 0.2),
+        turn: [turned * Vec3::X, turned * Vec3::Y],
+    };
+    let others = [[sphere].as_slice(), &mirrored, &alike, &[capsule, plane]].concat();
+    // Points are moved to shapes by their number, and those of other kernels stay.
+    if kernel == Kernel::SampleShapes { [others, vec![rounded]].concat() } else { others }
 }
 
 fn counts(domain: Domain, items: u32) -> Counts {
@@ -302,8 +318,8 @@ fn polish_state(kernel: Kernel, variant: Variant) -> PolishState {
 }
 
 fn step_settings(variant: Variant) -> StepSettings {
-    let base =
-        StepSettings::new(&Settings::new(Fabric::preset("cotton").expect("cotton is a preset")), &Model::default());
+    let cotton = Fabric::preset("cotton").expect("cotton is a preset");
+    let base = StepSettings::new(&Settings::new(cotton), &free_particle());
     let base = StepSettings {
         dt: 1.0 / 700.0,
         damping: 0.7,

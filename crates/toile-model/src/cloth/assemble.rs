@@ -3,7 +3,7 @@
 use crate::cloth::colouring::{Pair, sort_by_colour};
 use crate::cloth::soften::soften;
 use crate::mesh::geometry::corners;
-use crate::{Csr, Limit, Link, Model, Spring, SpringKind};
+use crate::{Arrays, Csr, Limit, Link, Spring, SpringKind};
 use toile_scene::Rule;
 
 /// Part of the threshold that the limits of a rule hold [1]. Sweeps of hierarchical ones end before they converge; what is left goes on top.
@@ -16,7 +16,7 @@ pub(crate) fn stretched(length: f32, elongation: f32) -> f32 {
     (1.0 + elongation) * length
 }
 
-impl Model {
+impl Arrays {
     /// Fills what follows from springs, seam pairs and quads.
     pub(crate) fn complete(mut self) -> Self {
         let count = self.positions.len();

@@ -1,13 +1,13 @@
 //! Limits of the distance from pins.
 
 use crate::cloth::assemble::{aim, stretched};
-use crate::{Attachment, Csr, Model};
+use crate::{Arrays, Attachment, Csr};
 use glam::DVec2;
 
 /// Most pins, or groups of neighbouring pins, that one particle is attached to.
 const ATTACHMENT_COUNT: usize = 4;
 
-impl Model {
+impl Arrays {
     /// For each particle of a convex panel the pins that hold it: of each group of neighbouring pins the nearest one, and of the groups
     /// the nearest ones. Kim, Chentanez and Müller, Long Range Attachments, 2012.
     pub(crate) fn attachments(&self, flat: &[DVec2], groups: &[Vec<u32>]) -> Csr<Attachment> {

@@ -1,6 +1,6 @@
 //! Bending rigidity: bend springs that push, and structural springs that hold against them.
 
-use crate::{Link, Model, SpringKind};
+use crate::{Arrays, Link, SpringKind};
 use std::collections::BTreeMap;
 
 /// What the push may add to (ω·dt)², by Gershgorin's bound. The springs have up to 1.6² of the 4 that are stable, most of it along
@@ -18,8 +18,8 @@ struct Hinge {
     push: f64,
 }
 
-impl Model {
-    /// Gives the cloth its bending rigidity B: `Model::bending` is B by areal density.
+impl Arrays {
+    /// Gives the cloth its bending rigidity B: [`Arrays::bending`] is B by areal density.
     ///
     /// An axial spring across a hinge of two cells resists bending at second order only: with sides a and b and the angle θ between
     /// them its length changes by a·b·θ²/(2(a + b)), so its energy grows as θ⁴ and there is no rigidity at θ = 0. When it pushes with

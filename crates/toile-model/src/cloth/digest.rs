@@ -1,6 +1,6 @@
 //! A model as one number, by which a saved state knows its own.
 
-use crate::Model;
+use crate::Arrays;
 
 /// FNV-1a over some bytes, 64 bits: the same number with every compiler and on every machine.
 pub fn digest_of(bytes: &[u8]) -> u64 {
@@ -8,7 +8,7 @@ pub fn digest_of(bytes: &[u8]) -> u64 {
     bytes.iter().fold(start, |digest, byte| (digest ^ u64::from(*byte)).wrapping_mul(prime))
 }
 
-impl Model {
+impl Arrays {
     /// The model as one number: another one has another number, but for one chance in 10^19. Names do not count.
     pub fn digest(&self) -> u64 {
         let mut words: Vec<u32> = Vec::new();
@@ -35,7 +35,7 @@ impl Model {
 #[cfg(test)]
 mod tests {
     use super::digest_of;
-    use crate::Model;
+    use crate::Arrays;
     use glam::Vec3;
 
     #[test]
@@ -48,10 +48,10 @@ mod tests {
 
     #[test]
     fn another_model_has_another_digest() {
-        let model = Model { positions: vec![Vec3::X, Vec3::Y], masses: vec![1.0, 2.0], ..Model::default() };
+        let model = Arrays { positions: vec![Vec3::X, Vec3::Y], masses: vec![1.0, 2.0], ..Arrays::default() };
         assert_eq!(model.digest(), model.clone().digest());
-        let moved = Model { positions: vec![Vec3::X, Vec3::Z], ..model.clone() };
-        let turned = Model { quads: vec![[0, 1, 0, 1]], ..model.clone() };
+        let moved = Arrays { positions: vec![Vec3::X, Vec3::Z], ..model.clone() };
+        let turned = Arrays { quads: vec![[0, 1, 0, 1]], ..model.clone() };
         assert_ne!(model.digest(), moved.digest());
         assert_ne!(model.digest(), turned.digest());
     }

@@ -4,7 +4,7 @@ use crate::cloth::assemble::{aim, stretched};
 use crate::cloth::clusters::clusters;
 use crate::cloth::flat_cloth::Cloth;
 use crate::cloth::flat_spans::{FlatSpan, FlatSpans};
-use crate::{CLUSTER_PAIRS, Cluster, CoarseParticle, Csr, Leader, Level, Model, SpringKind};
+use crate::{Arrays, CLUSTER_PAIRS, Cluster, CoarseParticle, Csr, Leader, Level, SpringKind};
 use glam::DVec2;
 use std::collections::BTreeMap;
 
@@ -18,7 +18,7 @@ const BALANCED: f64 = 0.25;
 /// Lengths that differ by less than this factor are the same [1].
 const AS_FAR: f64 = 1.05;
 
-impl Model {
+impl Arrays {
     /// Fills the levels of a cloth that has its springs and masses.
     pub(crate) fn add_levels(&mut self, cloth: &Cloth<'_>) {
         let spans = FlatSpans::new(cloth);

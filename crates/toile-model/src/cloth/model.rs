@@ -1,13 +1,19 @@
 //! The immutable arrays that a solver reads.
 
-use crate::{Csr, NO_CORNER};
+use crate::{Csr, ModelError, NO_CORNER};
 use glam::{Vec2, Vec3};
-use std::ops::Range;
+use std::ops::{Deref, Range};
 use toile_scene::{Rule, Threshold};
 
-/// One piece of cloth as the solvers read it. Immutable.
+/// One piece of cloth as the solvers read it: [`Arrays`] that fit together, and that nobody changes.
+///
+/// Its fields are those of the arrays. It is made of a sheet or a garment, or by [`Model::new`], which looks at every index.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Model(Arrays);
+
+/// What a model consists of, before anything has looked whether it fits together.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Model {
+pub struct Arrays {
     /// Positions at time 0 [m], shape [particle_count].
     pub positions: Vec<Vec3>,
     /// Masses [kg], positive also for pinned particles, shape [particle_count].
@@ -138,7 +144,7 @@ const SMALL_LEVEL_NODES: u32 = 1280;
 pub struct Level {
     /// Its nodes. Of those of the level below no two neighbours.
     pub nodes: Range<u32>,
-    /// Clusters of each colour in [`Model::clusters`]: no two of them share a node.
+    /// Clusters of each colour in [`Arrays::clusters`]: no two of them share a node.
     pub colours: Vec<Range<u32>>,
 }
 
@@ -180,7 +186,7 @@ pub struct SeamPair {
     pub ends: [u32; 2],
     /// Speed at which the pair closes [m/s].
     pub closing_speed: f32,
-    /// Index into [`Model::seam_names`].
+    /// Index into [`Arrays::seam_names`].
     pub seam: u32,
 }
 
@@ -189,7 +195,7 @@ pub struct SeamPair {
 pub struct Hold {
     /// The label.
     pub label: String,
-    /// Where its particles stand in [`Model::held_particles`]; never empty.
+    /// Where its particles stand in [`Arrays::held_particles`]; never empty.
     pub particles: Range<u32>,
     /// Mean height y at time 0 [m].
     pub height: f32,
@@ -228,6 +234,62 @@ impl Level {
 }
 
 impl Model {
+    /// A model of these arrays.
+    ///
+    /// # Errors
+    /// [`ModelError::Arrays`] with the first thing that does not fit: a shape, an index, a number that is none, or a colour in which two share a
+    /// particle.
+    pub fn new(arrays: Arrays) -> Result<Self, ModelError> {
+        arrays.check().map_err(|what| ModelError::Arrays { what })?;
+        Ok(Self(arrays))
+    }
+
+    /// A model of arrays that were made here, and fit together.
+    pub(crate) fn of(arrays: Arrays) -> Self {
+        debug_assert_eq!(arrays.check(), Ok(()));
+        Self(arrays)
+    }
+
+    /// For what is told to an open model once it is worn; indices stay.
+    pub(crate) fn arrays_mut(&mut self) -> &mut Arrays {
+        &mut self.0
+    }
+
+    /// The same with changed arrays.
+    ///
+    /// # Errors
+    /// As [`Model::new`].
+    pub fn changed(self, change: impl FnOnce(&mut Arrays)) -> Result<Self, ModelError> {
+        let mut arrays = self.0;
+        change(&mut arrays);
+        Self::new(arrays)
+    }
+}
+
+impl Deref for Model {
+    type Target = Arrays;
+
+    fn deref(&self) -> &Arrays {
+        &self.0
+    }
+}
+
+impl Arrays {
+    /// Particles that nothing joins, at these positions [m] and with these masses [kg]: a start for what is put together by hand.
+    pub fn of_particles(positions: Vec<Vec3>, masses: Vec<f32>) -> Self {
+        let count = positions.len();
+        Self {
+            inverse_masses: masses.iter().map(|mass| 1.0 / mass).collect(),
+            flat: positions.iter().map(|position| position.truncate()).collect(),
+            links: Csr::from_rows((0..count).map(|_| [])),
+            attachments: Csr::from_rows((0..count).map(|_| [])),
+            particle_quads: Csr::from_rows((0..count).map(|_| [])),
+            positions,
+            masses,
+            ..Self::default()
+        }
+    }
+
     /// Number of particles.
     pub fn particle_count(&self) -> u32 {
         self.positions.len() as u32

@@ -7,7 +7,7 @@ use crate::cloth::springs::{Role, panel_springs};
 use crate::mesh::geometry::{corners, element_area, signed_area};
 use crate::mesh::panel_meshes;
 use crate::union_find::UnionFind;
-use crate::{Hold, Model, ModelError, PanelMesh, Spring, SpringKind};
+use crate::{Arrays, Hold, Model, ModelError, PanelMesh, Spring, SpringKind};
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
 use toile_scene::{Garment, Rule, Settings, Sheet};
@@ -32,7 +32,7 @@ impl Model {
             .flat_map(|r| (0..columns - 1).map(move |c| r * columns + c))
             .map(|first| [first, first + 1, first + columns + 1, first + columns])
             .collect();
-        let mut model = Self::from_flat(&flat, &places, quads, &settings.of_fabric(sheet.fabric.as_ref()));
+        let mut model = Arrays::from_flat(&flat, &places, quads, &settings.of_fabric(sheet.fabric.as_ref()));
         for pin in &sheet.pins {
             assert!(pin.column < columns && pin.row < rows, "the pins of a sheet are particles of it");
             model.inverse_masses[(pin.row * columns + pin.column) as usize] = 0.0;
@@ -49,7 +49,7 @@ impl Model {
         }
         let mut model = model.complete();
         model.add_bending();
-        model
+        Self::of(model)
     }
 
     /// The open model of a garment: panels where they are placed, seams as springs of zero rest length and as pairs to close.
@@ -88,7 +88,7 @@ impl Model {
                 worst_angle: mesh.worst_angle() as f32,
             });
         }
-        let mut model = Self::from_flat(&flat, &places, quads, settings);
+        let mut model = Arrays::from_flat(&flat, &places, quads, settings);
         model.panels = panels;
         model.add_flat_levels(&flat);
         (model.holds, model.held_particles) = holds(garment, &edge_particles, &places);
@@ -105,9 +105,11 @@ impl Model {
         model.springs.sort_by_key(|s| (s.ends, s.kind));
         let mut model = model.complete();
         model.add_bending();
-        Ok(model)
+        Ok(Self::of(model))
     }
+}
 
+impl Arrays {
     /// Particles, masses and springs of flat meshes.
     fn from_flat(flat: &[DVec2], places: &[DVec3], quads: Vec<[u32; 4]>, settings: &Settings) -> Self {
         let fabric = &settings.fabric;

@@ -6,7 +6,7 @@ use crate::mesh::fan::opposite_neighbours;
 use crate::mesh::flat_mesh::smallest_first;
 use crate::mesh::geometry::corners;
 use crate::union_find::UnionFind;
-use crate::{Csr, Hold, Merge, Model, PanelMesh, Spring, SpringKind};
+use crate::{Arrays, Csr, Hold, Merge, Model, PanelMesh, Spring, SpringKind};
 use glam::{DVec2, DVec3};
 use std::collections::BTreeSet;
 use toile_scene::Rule;
@@ -20,13 +20,13 @@ impl Model {
     pub fn sewn(&self) -> (Self, Merge) {
         let (member_of, merge) = self.merge();
         let count = merge.members.row_count();
-        let mut model = Self {
+        let mut model = Arrays {
             threshold: self.threshold,
             rule: self.rule,
             stiffness: self.stiffness,
             bending: self.bending,
             step_wanted: self.step_wanted,
-            ..Self::default()
+            ..Arrays::default()
         };
         for row in 0..count {
             let members = merge.members.row(row);
@@ -51,7 +51,7 @@ impl Model {
         }
         let mut model = model.complete();
         model.add_bending();
-        (model, merge)
+        (Self::of(model), merge)
     }
 
     /// The lines of cloth that this model has once sewn by a merge, as particles of that one; a ring is cut once, and a short line lies across.

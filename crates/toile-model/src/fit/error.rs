@@ -6,6 +6,9 @@ use super::finding::InBody;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FitError {
+    /// A number that no scene has.
+    #[error("{0}")]
+    Range(#[from] toile_scene::OutOfRange),
     /// The body stands with another axis up, and it is not clear which.
     #[error(
         "the body lies: {height:.2} m along y is less than a person of {length:.2} m has, and which way is up is not clear: say which axis is up"

@@ -96,6 +96,7 @@ pub enum Finding {
 
 /// Where a panel stands in a body.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct InBody {
     /// The part of the body, in a word: "left arm", "trunk"; "body" where it is no person.
     pub part: &'static str,

@@ -1,7 +1,7 @@
 //! Limits of cloth that is too tight to hold them, let out to what it needs.
 
 use crate::cloth::aim;
-use crate::{CLUSTER_PAIRS, Cluster, Limit, Merge, Model};
+use crate::{Arrays, CLUSTER_PAIRS, Cluster, Limit, Merge, Model};
 use glam::Vec3;
 use std::collections::HashMap;
 
@@ -22,6 +22,7 @@ pub(crate) struct LetOut {
 impl LetOut {
     /// Lets the limits of a model out by so much each; what was let out before is taken back first.
     pub(crate) fn apply(&mut self, model: &mut Model, ratios: &[f32]) {
+        let model = model.arrays_mut();
         if !self.ratios.is_empty() {
             let before = std::mem::take(self);
             model.limits.iter_mut().zip(before.limits).for_each(|(limit, length)| limit.max_length = length);
@@ -87,7 +88,9 @@ impl Model {
         };
         threes.filter_map(pair).collect()
     }
+}
 
+impl Arrays {
     /// Lets the limits of all levels out: of the cloth itself by as much as the single ones, between coarse particles by what was needed the most
     /// around both ends.
     fn let_levels_out(&mut self, ratios: &[f32]) {

@@ -19,7 +19,7 @@ pub struct Status {
     pub elongation_max: f32,
     /// Number of structural and shear springs whose elongation is above the threshold along them.
     pub over_long_count: u32,
-    /// The spring with the largest elongation, as an index into [`Model::limits`](crate::Model::limits).
+    /// The spring with the largest elongation, as an index into [`Arrays::limits`](crate::Arrays::limits).
     pub longest_limit: Option<u32>,
     /// Largest distance between two particles of a seam pair [m]; 0 without open seams.
     pub seam_gap_max: f32,

@@ -38,6 +38,7 @@ const ALL_ABOVE: f64 = 0.05;
 /// wrong side of the body, anything moves, and how far it is stretched. What is not: which limb goes through an opening, and whether the
 /// garment is turned around or inside out.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Verdict {
     /// What is wrong, the worst first; empty when the garment is on.
     pub findings: Vec<Flaw>,

@@ -2,9 +2,9 @@
 //! notches.
 
 use crate::support::{check_colours, garment, polygon, rectangle, settings};
-use glam::{DVec2, DVec3, dvec2};
+use glam::{DVec2, DVec3, Vec3, dvec2};
 use std::f64::consts::PI;
-use toile_model::{CLUSTER_PAIRS, Cluster, Leader, Level, Limit, Model, NO_CORNER, StepSettings};
+use toile_model::{Arrays, CLUSTER_PAIRS, Cluster, Csr, Leader, Level, Limit, Model, NO_CORNER, StepSettings};
 use toile_scene::{Garment, Pin, Rule, Settings, Sheet, Threshold, VelocityModification};
 
 /// Part of the threshold that the limits hold.
@@ -180,7 +180,12 @@ fn pins_are_nodes_of_every_level_that_nothing_moves() {
 fn fine_cloth_has_further_passes_with_each_doubling() {
     let mut settings = hierarchical(0.01);
     let numbers = |settings: &Settings, levels: usize| {
-        let model = Model { levels: vec![Level::default(); levels], ..Model::default() };
+        let mut arrays = Arrays::of_particles(vec![Vec3::ZERO], vec![1.0]);
+        arrays.leaders = Csr::from_rows([[]]);
+        arrays.guard_lengths = Vec::new();
+        arrays.levels =
+            (0..levels).map(|level| Level { nodes: u32::from(level > 0)..1, colours: Vec::new() }).collect();
+        let model = Model::new(arrays).expect("a particle that stands alone on every level");
         let step = StepSettings::new(settings, &model);
         [step.sweeps, step.limit_passes, step.guard_passes]
     };

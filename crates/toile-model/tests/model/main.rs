@@ -11,4 +11,5 @@ mod random_outlines;
 mod seams;
 mod shapes;
 mod sheet;
+mod sound;
 mod support;

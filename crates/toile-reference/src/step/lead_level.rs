@@ -3,11 +3,11 @@
 use crate::{Nodes, Particles};
 use glam::Vec3;
 use std::ops::Range;
-use toile_model::Model;
+use toile_model::Arrays;
 
 /// Puts the nodes of a level where the cloth would be after a move of `dt` [s], and shifts them as much as those that lead them. Gives nothing
 /// for nodes of other levels.
-pub fn lead_level(nodes: &mut Nodes, level: &Range<u32>, particles: &Particles, model: &Model, dt: f32) {
+pub fn lead_level(nodes: &mut Nodes, level: &Range<u32>, particles: &Particles, model: &Arrays, dt: f32) {
     for node in level.clone().map(|node| node as usize) {
         let coarse = node.checked_sub(model.positions.len());
         let site = coarse.map_or(node, |coarse| model.coarse_particles[coarse].site as usize);

@@ -4,14 +4,14 @@ use super::cluster::each_pair;
 use super::pair::{after_move, inverse_mass_sum, pull_together};
 use crate::Particles;
 use std::ops::Range;
-use toile_model::{Model, StepSettings};
+use toile_model::{Arrays, StepSettings};
 
 /// Removes from the velocities of both ends, by inverse mass, what would leave a limit stretched more than twice as far as it may be after
 /// the coming move; of a great excess only so much that nothing is flung into a body that it was not near. `share` is the part of it that is removed [1]. The clusters are those of one colour
 /// of the cloth itself: no two share a particle.
 pub fn limit_guard(
     particles: &mut Particles,
-    model: &Model,
+    model: &Arrays,
     clusters: &Range<u32>,
     share: f32,
     settings: &StepSettings,

@@ -3,11 +3,11 @@
 use super::cluster::each_pair;
 use crate::Nodes;
 use std::ops::Range;
-use toile_model::Model;
+use toile_model::Arrays;
 
 /// Shifts both ends of each limit that is over-long, by inverse mass, `relaxation` times as much as that takes [1]. The clusters are those
 /// of one colour: no two share a node.
-pub fn limit_level(nodes: &mut Nodes, model: &Model, clusters: &Range<u32>, relaxation: f32) {
+pub fn limit_level(nodes: &mut Nodes, model: &Arrays, clusters: &Range<u32>, relaxation: f32) {
     each_pair(&model.clusters, clusters, |[a, b], cluster, place| {
         let max_length = model.clusters[cluster].max_lengths[place];
         let [a, b] = [a, b].map(|node| node as usize);

@@ -1,7 +1,7 @@
 //! Points against the analytic shapes.
 
 use crate::Probe;
-use glam::{Vec3, Vec3Swizzles};
+use glam::{Vec3, Vec3Swizzles, vec3};
 use std::cmp::Ordering;
 use toile_model::{ShapeKind, ShapeStep, StepSettings};
 
@@ -41,6 +41,7 @@ fn look_at(shape: &ShapeStep, position: Vec3, velocity: Vec3, settings: &StepSet
         ShapeKind::Sphere => {}
         ShapeKind::Capsule => return look_at_capsule(shape, radial, velocity, settings),
         ShapeKind::Plane => return Some(look_at_plane(shape, radial)),
+        ShapeKind::Box => return Some(look_at_box(shape, radial, velocity, settings)),
     }
     let way = (velocity - shape.velocity) * settings.dt;
     let entry = if settings.swept { sphere_entry(radial, way, shape.radius) } else { None };
@@ -97,6 +98,70 @@ fn look_at_plane(shape: &ShapeStep, radial: Vec3) -> Probe {
     let below = radial - shape.axis * height;
     let velocity = (shape.velocity + shape.spin.yzx() * below.zxy()) - shape.spin.zxy() * below.yzx();
     Probe { normal: shape.axis, distance: height - shape.radius, velocity, hit: true }
+}
+
+/// Turns of the search for where a way enters a box.
+const BOX_TURNS: u32 = 6;
+
+/// The plane that a point sees of a box, `radial` from its centre [m]; out of its core leads the nearest face.
+fn look_at_box(shape: &ShapeStep, radial: Vec3, velocity: Vec3, settings: &StepSettings) -> Probe {
+    let [right, up] = shape.turn;
+    let forward = right.yzx() * up.zxy() - right.zxy() * up.yzx();
+    let turning = shape.spin.yzx() * radial.zxy() - shape.spin.zxy() * radial.yzx();
+    let way = ((velocity - shape.velocity) - turning) * settings.dt;
+    let start = vec3(right.dot(radial), up.dot(radial), forward.dot(radial));
+    let along = vec3(right.dot(way), up.dot(way), forward.dot(way));
+    let entry = if settings.swept { box_entry(shape, start, along) } else { None };
+    let met = entry.map_or(start, |share| start + along * share);
+    let core = within(met, shape.axis);
+    let outward = met - core;
+    let length = outward.length();
+    let (normal, distance) = if length > 0.0 {
+        let normal = outward / length;
+        (normal, normal.dot(start - core) - shape.radius)
+    } else {
+        let depth = shape.axis - met.abs();
+        let side = |place: f32| if place > 0.0 { 1.0 } else { -1.0 };
+        let mut nearest = (depth.x, side(met.x) * Vec3::X);
+        for (depth, out) in [(depth.y, side(met.y) * Vec3::Y), (depth.z, side(met.z) * Vec3::Z)] {
+            if depth < nearest.0 {
+                nearest = (depth, out);
+            }
+        }
+        (nearest.1, -nearest.0 - shape.radius)
+    };
+    let [x, y, z] = [0, 1, 2].map(|k| vec3(right[k], up[k], forward[k]));
+    let place = vec3(x.dot(met), y.dot(met), z.dot(met));
+    let velocity = (shape.velocity + shape.spin.yzx() * place.zxy()) - shape.spin.zxy() * place.yzx();
+    Probe { normal: vec3(x.dot(normal), y.dot(normal), z.dot(normal)), distance, velocity, hit: true }
+}
+
+/// After which part of its way a place meets a box, all along the axes of the box; at once where it is inside. Newton's search on the distance along the way,
+/// which is convex: it comes ever nearer and never goes too far.
+fn box_entry(shape: &ShapeStep, start: Vec3, way: Vec3) -> Option<f32> {
+    let mut share = 0.0;
+    for _ in 0..BOX_TURNS {
+        let place = start + way * share;
+        let outward = place - within(place, shape.axis);
+        let length = outward.length();
+        let gap = length - shape.radius;
+        let is_outside = gap > 0.0;
+        if !is_outside {
+            break;
+        }
+        let closing = outward.dot(way) / length;
+        let is_closing = closing < 0.0;
+        if !is_closing {
+            return None;
+        }
+        share -= gap / closing;
+    }
+    Some(share).filter(|share| *share < 1.0)
+}
+
+/// The place of a box of these half extents around the origin that is nearest to another one.
+fn within(place: Vec3, half: Vec3) -> Vec3 {
+    place.max(-half).min(half)
 }
 
 /// The nearer first; of two that are equally near the one whose normal, then whose velocity is larger in the first coordinate that differs.

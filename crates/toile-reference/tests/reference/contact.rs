@@ -1,11 +1,11 @@
 //! Contact: friction on a plate, the sphere, and which side of a map answers.
 
-use crate::support::{GRAVITY, Grid, settings};
+use crate::support::{GRAVITY, Grid, changed, settings};
 use glam::{DQuat, DVec3, Vec3, vec2, vec3};
 use toile_model::{NO_CORNER, ShapeStep, StepSettings};
 use toile_reference::maps::{BodyMaps, Surface};
 use toile_reference::{Colliders, Contact, Lag, Probe, Reference, step};
-use toile_scene::{Friction, MapKind, Mesh, RigidKey, RigidMotion, Rule, Shape, ShapeMotion};
+use toile_scene::{Form, Friction, MapKind, Mesh, RigidKey, RigidMotion, Rule, Shape, ShapeMotion};
 
 /// Coulomb coefficient of the plate: it holds up to 16.7°.
 const FRICTION: f32 = 0.3;
@@ -28,10 +28,8 @@ fn slide(maps: &BodyMaps, degrees: f32, law: Friction) -> (f32, f32, f32) {
         rule: Rule::Predictive,
         ..settings()
     };
-    let mut model = Grid { down: Vec3::Y, ..Grid::horizontal(5, 0.02) }.model();
-    for position in &mut model.positions {
-        position.z = 0.0;
-    }
+    let model = Grid { down: Vec3::Y, ..Grid::horizontal(5, 0.02) }.model();
+    let model = changed(model, |model| model.positions.iter_mut().for_each(|position| position.z = 0.0));
     let start = model.positions[12].x;
     let mut reference = Reference::new(&model, &settings, Colliders { maps: Some(maps.clone()), shapes: Vec::new() });
     let mut off = 0.0_f32;
@@ -121,10 +119,8 @@ fn friction_counts_a_pressure_up_to_its_bound() {
 fn a_rebound_gives_back_its_part_of_the_approach() {
     let maps = plate();
     let settings = StepSettings { thickness: 0.0, gravity: Vec3::ZERO, reflection: 0.5, friction: 0.0, ..settings() };
-    let mut model = Grid { down: Vec3::Y, ..Grid::horizontal(2, 0.02) }.model();
-    for position in &mut model.positions {
-        position.z = 0.0005;
-    }
+    let model = Grid { down: Vec3::Y, ..Grid::horizontal(2, 0.02) }.model();
+    let model = changed(model, |model| model.positions.iter_mut().for_each(|position| position.z = 0.0005));
     let mut probes =
         step::sample_body_maps(&model.positions, &[vec3(0.1, 0.0, -1.0); 4], &maps, Lag::default(), &settings);
     let mut particles = toile_reference::Particles::new(&model);
@@ -141,10 +137,10 @@ fn a_rebound_gives_back_its_part_of_the_approach() {
 /// pulls the particle into the first ball in the second sweep, which no particle reached before.
 #[test]
 fn what_a_later_sweep_leads_into_a_shape_meets_it() {
-    let mut model = Grid { columns: 2, rows: 1, ..Grid::horizontal(2, 0.3) }.model();
+    let model = Grid { columns: 2, rows: 1, ..Grid::horizontal(2, 0.3) }.model();
     let near = vec3(0.0, 0.0525, 0.0);
     let far = near - vec3(0.0, 0.3 * 1.05, 0.0);
-    model.positions = vec![near, far];
+    let model = changed(model, |model| model.positions = vec![near, far]);
     let ball = Shape::sphere(DVec3::ZERO, 0.05);
     // It comes from above at 3 m/s, and touches the far end at once.
     let speed = 3.0;
@@ -268,6 +264,110 @@ fn a_fast_capsule_meets_points_where_it_first_touches_them() {
     assert!(capsule_error(false) > 0.3, "without the test of the whole way: {}", capsule_error(false));
 }
 
+/// A box that is turned, with edges of this radius [m], whose upmost corner or edge is at about this height.
+fn turned_box(radius: f64, motion: ShapeMotion) -> Shape {
+    let rotation = DQuat::from_rotation_z(0.7) * DQuat::from_rotation_x(0.5);
+    let form = Form::Box { half_size: DVec3::new(0.2, 0.12, 0.25), rotation, radius };
+    Shape { form, centre: DVec3::new(0.0, -0.35, 0.0), motion }
+}
+
+/// By how much [m] the planes that a box tells of points around it are off its exact distance, within and outside.
+fn box_error(shape: &Shape, thickness: f32) -> f64 {
+    let settings = StepSettings { thickness, swept: false, ..settings() };
+    let told = ShapeStep::of(shape, 0, &settings);
+    let places = (0..4000).map(|k| {
+        let place = |k: u32, base: u32| {
+            (0..12)
+                .fold((0.0, 1.0 / base as f64, k), |(sum, part, k), _| {
+                    (sum + part * (k % base) as f64, part / base as f64, k / base)
+                })
+                .0
+        };
+        shape.centre + (DVec3::new(place(k, 2), place(k, 3), place(k, 5)) - 0.5) * 1.2
+    });
+    let mut worst: f64 = 0.0;
+    for place in places {
+        let mut probes = [Probe::default()];
+        step::sample_shapes(&mut probes, &[place.as_vec3()], &[Vec3::ZERO], &[told], &settings);
+        let [probe] = probes;
+        assert!(probe.hit && (probe.normal.length() - 1.0).abs() < 1e-5, "{probe:?}");
+        worst = worst.max((f64::from(probe.distance + thickness) + shape.depth(place, 0.0)).abs());
+        // Along the normal the distance falls to nothing: it is the plane that touches the box.
+        if probe.distance > 0.0 {
+            let foot = place - probe.normal.as_dvec3() * f64::from(probe.distance + thickness);
+            worst = worst.max(shape.depth(foot, 0.0).abs());
+        }
+    }
+    worst
+}
+
+#[test]
+fn a_box_is_as_far_away_as_it_is() {
+    for radius in [0.0, 0.05, 0.12] {
+        for thickness in [0.0, 0.004] {
+            let error = box_error(&turned_box(radius, ShapeMotion::Still), thickness);
+            assert!(error < 1e-6, "{error} m of a box with edges of {radius} m");
+        }
+    }
+    let mut step = ShapeStep::of(&turned_box(0.05, ShapeMotion::Still), 0, &settings());
+    step.centre = Vec3::NAN;
+    let mut probes = [Probe::default()];
+    step::sample_shapes(&mut probes, &[Vec3::ZERO], &[Vec3::ZERO], &[step], &settings());
+    assert!(!probes[0].hit, "a box that is nowhere answers nobody");
+}
+
+/// How far [m] from the surface of a box the planes touch it that points tell which pass through it within one step.
+fn entry_error(swept: bool) -> f64 {
+    let settings = StepSettings { dt: 1.0 / 60.0, swept, thickness: 0.0, ..settings() };
+    let shape = turned_box(0.04, ShapeMotion::Still);
+    let told = ShapeStep::of(&shape, 0, &settings);
+    let mut worst: f64 = 0.0;
+    for k in 0..200 {
+        let angle = 0.37 * f64::from(k);
+        let out = DVec3::new(angle.cos(), (1.7 * angle).sin(), (2.3 * angle).cos()).normalize();
+        let start = shape.centre + out * 0.6;
+        let aim = shape.centre + DVec3::new((3.1 * angle).sin(), (0.9 * angle).cos(), (5.3 * angle).sin()) * 0.06;
+        // Most of the way through, and out again on the other side.
+        let way = (aim - start) * 2.2;
+        let mut probes = [Probe::default()];
+        let velocity = (way * 60.0).as_vec3();
+        step::sample_shapes(&mut probes, &[start.as_vec3()], &[velocity], &[told], &settings);
+        // Where the way meets the plane, and where it meets the box.
+        let [probe] = probes;
+        let share = -f64::from(probe.distance) / probe.normal.as_dvec3().dot(way);
+        worst = worst.max(shape.depth(start + way * share, 0.0).abs());
+    }
+    worst
+}
+
+#[test]
+fn a_fast_point_meets_a_box_where_it_first_touches_it() {
+    assert!(entry_error(true) < 1e-4, "{} m", entry_error(true));
+    assert!(entry_error(false) > 0.03, "without the test of the whole way: {} m", entry_error(false));
+}
+
+#[test]
+fn a_sheet_dropped_on_a_box_stays_outside_also_where_it_turns() {
+    let key = |time: f64| RigidKey { time, translation: DVec3::ZERO, rotation: DQuat::from_rotation_y(1.5 * time) };
+    let turning = ShapeMotion::Keys(RigidMotion { keys: vec![key(0.0), key(1.0), key(2.0)] });
+    for (motion, radius) in [(ShapeMotion::Still, 0.0), (ShapeMotion::Still, 0.05), (turning, 0.05)] {
+        let shape = turned_box(radius, motion);
+        let settings = StepSettings { dt: 1.0 / 600.0, rule: Rule::Predictive, sweeps: 2, damping: 0.5, ..settings() };
+        let model = Grid::horizontal(21, 0.03).model();
+        let mut reference = Reference::new(&model, &settings, Colliders { maps: None, shapes: vec![shape.clone()] });
+        let (mut touched, mut deepest) = (0, f64::NEG_INFINITY);
+        for k in 0..900 {
+            reference.step();
+            touched = touched.max(reference.contacts().iter().filter(|contact| contact.touching).count());
+            let time = f64::from(k + 1) / 600.0;
+            let depths = reference.positions().iter().map(|position| shape.depth(position.as_dvec3(), time));
+            deepest = depths.fold(deepest, f64::max);
+        }
+        assert!(touched > 10, "{touched} particles touched the box");
+        assert!(deepest < -1e-4, "{deepest} m deep, with edges of {radius} m");
+    }
+}
+
 #[test]
 fn a_sheet_dropped_on_a_capsule_stays_outside() {
     let capsule = Shape::capsule([DVec3::new(-0.2, -0.3, 0.1), DVec3::new(0.2, -0.25, -0.1)], 0.2);
@@ -322,8 +422,7 @@ fn maps_are_read_where_they_were_drawn() {
 
 #[test]
 fn a_contact_remembers_the_surface_it_touched() {
-    let mut model = Grid::horizontal(2, 0.02).model();
-    model.inverse_masses[3] = 0.0;
+    let model = changed(Grid::horizontal(2, 0.02).model(), |model| model.inverse_masses[3] = 0.0);
     let mut particles = toile_reference::Particles::new(&model);
     let velocity = vec3(0.1, 0.2, 0.3);
     let mut probes = [Probe { normal: Vec3::Y, distance: 0.0, velocity, hit: true }; 4];

@@ -1,6 +1,6 @@
 //! Free fall and momentum: what a rule does to a cloth that nothing holds.
 
-use crate::support::{Grid, Parts, Random, THRESHOLD, centre, momentum, momentum_scale, settings};
+use crate::support::{Grid, Parts, Random, THRESHOLD, centre, changed, momentum, momentum_scale, settings};
 use glam::{DVec3, Vec3};
 use toile_model::{Model, Spring, SpringKind, StepSettings};
 use toile_reference::{Colliders, Particles, Reference, limits, step};
@@ -13,11 +13,8 @@ const ROUNDING: f64 = 4e-6;
 
 /// A sheet stretched by 20 % in its plane, so that every limit acts; upright, so that the directional rule sees a front.
 fn stretched_sheet() -> Model {
-    let mut model = Grid { right: Vec3::X, down: Vec3::NEG_Y, ..Grid::horizontal(8, 0.02) }.model();
-    for position in &mut model.positions {
-        *position *= 1.2;
-    }
-    model
+    let model = Grid { right: Vec3::X, down: Vec3::NEG_Y, ..Grid::horizontal(8, 0.02) }.model();
+    changed(model, |model| model.positions.iter_mut().for_each(|position| *position *= 1.2))
 }
 
 /// Largest distance of the centre of mass from the closed form of symplectic Euler, p_k = p_0 + g·dt²·k(k + 1)/2, over the

@@ -1,17 +1,22 @@
 //! Sewing: seams that close, edges that are held, and the handover.
 
-use crate::support::{Grid, Parts, THRESHOLD, momentum, settings};
+use crate::support::{Grid, Parts, THRESHOLD, changed, momentum, settings};
 use glam::{Vec3, vec3};
 use toile_model::{Csr, Hold, Merge, Model, SeamPair, Spring, SpringKind, StepSettings};
 use toile_reference::{Colliders, Particles, Reference, frame, step};
 use toile_scene::Rule;
 
+fn with_seam(model: Model, pair: SeamPair) -> Model {
+    changed(model, |model| {
+        model.seam_pairs = vec![pair];
+        model.seam_colours = std::iter::once(0..1).collect();
+    })
+}
+
 fn two_particles() -> Model {
-    let mut model =
+    let model =
         Parts { positions: vec![Vec3::ZERO, vec3(0.3, 0.0, 0.4)], masses: vec![1.0, 3.0], ..Parts::default() }.model();
-    model.seam_pairs = vec![SeamPair { ends: [0, 1], closing_speed: 2.0, seam: 0 }];
-    model.seam_colours = std::iter::once(0..1).collect();
-    model
+    with_seam(model, SeamPair { ends: [0, 1], closing_speed: 2.0, seam: 0 })
 }
 
 #[test]
@@ -32,7 +37,7 @@ fn a_seam_closes_at_its_speed_and_stays_closed() {
 fn a_seam_that_a_tight_fit_holds_open_closes_all_the_same() {
     let spring =
         |ends| Spring { ends, kind: SpringKind::Structural, rest_length: 0.1, stiffness: 1.0, threshold: THRESHOLD };
-    let mut model = Parts {
+    let model = Parts {
         positions: [0.0, 0.1, 0.14, 0.24].map(|x| x * Vec3::X).to_vec(),
         masses: vec![1.0; 4],
         pins: vec![0, 3],
@@ -40,8 +45,7 @@ fn a_seam_that_a_tight_fit_holds_open_closes_all_the_same() {
         ..Parts::default()
     }
     .model();
-    model.seam_pairs = vec![SeamPair { ends: [1, 2], closing_speed: 0.2, seam: 0 }];
-    model.seam_colours = std::iter::once(0..1).collect();
+    let model = with_seam(model, SeamPair { ends: [1, 2], closing_speed: 0.2, seam: 0 });
     let settings =
         StepSettings { gravity: Vec3::ZERO, damping: 5.0, rule: Rule::Hierarchical, sweeps: 3, ..settings() };
     let mut reference = Reference::new(&model, &settings, Colliders::default());

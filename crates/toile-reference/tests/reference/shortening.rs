@@ -1,6 +1,6 @@
 //! Nothing resists shortening: limits leave cloth alone that is shorter than they are, and folds are free.
 
-use crate::support::Random;
+use crate::support::{Random, changed};
 use glam::{DVec2, DVec3, Vec3};
 use toile_model::{Csr, Link, Model, StepSettings};
 use toile_reference::{Colliders, Nodes, Particles, Reference, step};
@@ -43,13 +43,14 @@ fn curtain(rule: Rule) -> (Model, StepSettings) {
         pins: (0..N).step_by(SWAG as usize).map(|column| Pin { column, row: 0 }).collect(),
         fabric: None,
     };
-    let mut model = Model::from_sheet(&sheet, &settings);
-    for (position, i) in model.positions.iter_mut().zip(0..) {
-        // One fold to the front, the next to the back.
-        let phase = (i % N) as f32 / SWAG as f32 * std::f32::consts::PI;
-        position.x *= GATHERED;
-        position.z = 0.02 * phase.sin();
-    }
+    let model = changed(Model::from_sheet(&sheet, &settings), |model| {
+        for (position, i) in model.positions.iter_mut().zip(0..) {
+            // One fold to the front, the next to the back.
+            let phase = (i % N) as f32 / SWAG as f32 * std::f32::consts::PI;
+            position.x *= GATHERED;
+            position.z = 0.02 * phase.sin();
+        }
+    });
     let step = StepSettings::new(&settings, &model);
     (model, step)
 }
@@ -88,7 +89,7 @@ fn apart(a: &Folds, b: &Folds) -> f32 {
 }
 
 /// With springs over four cells along warp and weft, which resist lengthening and shortening.
-fn with_struts(mut model: Model) -> Model {
+fn with_struts(model: Model) -> Model {
     let mut rows: Vec<Vec<Link>> = (0..model.positions.len()).map(|i| model.links.row(i).to_vec()).collect();
     let rest_length = 4.0 * 0.4 / (N - 1) as f32;
     for i in 0..N * N {
@@ -99,8 +100,7 @@ fn with_struts(mut model: Model) -> Model {
             rows[other as usize].push(Link { other: i, rest_length, stiffness: 5.0 });
         }
     }
-    model.links = Csr::from_rows(rows);
-    model
+    changed(model, |model| model.links = Csr::from_rows(rows))
 }
 
 #[test]

@@ -1,9 +1,9 @@
 //! Cloth, bodies and numbers that the tests share.
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 use std::collections::HashSet;
 use std::ops::Range;
-use toile_model::{Cluster, Csr, Level, Limit, Link, Model, NO_CORNER, Spring, SpringKind, StepSettings};
+use toile_model::{Arrays, Cluster, Csr, Level, Limit, Link, Model, NO_CORNER, Spring, SpringKind, StepSettings};
 use toile_reference::Particles;
 use toile_scene::{Friction, Rule};
 
@@ -77,7 +77,8 @@ impl Parts {
             nodes: [limit.ends[0], limit.ends[1], NO_CORNER, NO_CORNER],
             max_lengths: lengths(limit.max_length),
         };
-        Model {
+        Model::new(Arrays {
+            flat: vec![Vec2::ZERO; count],
             links: Csr::from_rows(links),
             particle_quads: Csr::from_rows(particle_quads),
             inverse_masses: (0..count)
@@ -94,9 +95,15 @@ impl Parts {
             limits,
             limit_colours,
             attachments: Csr::from_rows((0..count).map(|_| [])),
-            ..Model::default()
-        }
+            ..Arrays::default()
+        })
+        .expect("parts that fit together")
     }
+}
+
+/// A model of changed arrays, which still fit together.
+pub fn changed(model: Model, change: impl FnOnce(&mut Arrays)) -> Model {
+    model.changed(change).expect("arrays that fit together")
 }
 
 /// Items sorted by colour so that no two of a colour share an end.

@@ -1,6 +1,6 @@
 //! The step that is chosen from the springs: stable for long at the bound itself, and not far below what the springs allow.
 
-use crate::support::{Grid, Parts, Random, settings};
+use crate::support::{Grid, Parts, Random, changed, settings};
 use glam::{DVec3, Vec3, vec3};
 use toile_files::parse_garment;
 use toile_model::{Link, Model, Spring, SpringKind, StepSettings};
@@ -42,8 +42,9 @@ fn energy(model: &Model, reference: &Reference) -> f64 {
 /// Largest energy [J] in the first hundredth of a run, and in all of it, of a model at rest that is displaced. Looked at every fifth
 /// step: no mode keeps in step with that for long.
 fn energies(model: &Model, step: &StepSettings, displaced: impl Fn(usize) -> Vec3, steps: u32) -> [f64; 2] {
-    let mut start = model.clone();
-    start.positions.iter_mut().enumerate().for_each(|(i, position)| *position += displaced(i));
+    let start = changed(model.clone(), |start| {
+        start.positions.iter_mut().enumerate().for_each(|(i, position)| *position += displaced(i));
+    });
     let mut reference = Reference::new(&start, step, Colliders::default());
     let mut largest = |steps: u32| {
         (0..steps / 5).fold(0.0, |largest: f64, _| {
@@ -59,31 +60,31 @@ fn energies(model: &Model, step: &StepSettings, displaced: impl Fn(usize) -> Vec
 
 /// A grid of which half is a hundred times heavier, when wanted.
 fn grid(heavy: f32) -> Model {
-    let mut model = Grid::horizontal(6, 0.02).model();
-    for i in (0..36).filter(|i| i % 6 < 3) {
-        model.masses[i] *= heavy;
-        model.inverse_masses[i] /= heavy;
-    }
-    model
+    changed(Grid::horizontal(6, 0.02).model(), |model| {
+        for i in (0..36).filter(|i| i % 6 < 3) {
+            model.masses[i] *= heavy;
+            model.inverse_masses[i] /= heavy;
+        }
+    })
 }
 
 /// The skirt, sewn and then left alone until it is at rest; its front is so many times as heavy as its back.
 fn skirt(heavy: f32) -> Model {
     let text = include_str!("../../../../fixtures/garments/skirt.json");
     let garment = parse_garment(text, "skirt").expect("it is whole").garment;
-    let mut open = Model::from_garment(&garment, &cotton()).expect("it meshes");
-    for i in open.panels[0].particles.clone() {
-        open.masses[i as usize] *= heavy;
-        open.inverse_masses[i as usize] /= heavy;
-    }
-    let (mut sewn, _) = open.sewn();
+    let open = changed(Model::from_garment(&garment, &cotton()).expect("it meshes"), |open| {
+        for i in open.panels[0].particles.clone() {
+            open.masses[i as usize] *= heavy;
+            open.inverse_masses[i as usize] /= heavy;
+        }
+    });
+    let (sewn, _) = open.sewn();
     let step = at_bound(&sewn);
     let damped = StepSettings { dt: 0.5 * step.dt, damping: 5.0, ..step };
     let mut reference = Reference::new(&sewn, &damped, Colliders::default());
     reference.steps(20_000);
     assert!(reference.kinetic_energy() < 1e-8, "it is at rest");
-    sewn.positions = reference.positions().to_vec();
-    sewn
+    changed(sewn, |sewn| sewn.positions = reference.positions().to_vec())
 }
 
 /// The fastest mode of the springs around a state at rest, of unit length, and the step that it allows [s]: 2 over its rate. A power iteration

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use toile::Colliders;
-use toile::model::{Model, StepSettings};
+use toile::model::{Arrays, Model, StepSettings};
 use toile::scene::{Pin, Rule, Settings, Sheet, VelocityModification};
 use toile_lab::scenes::{BALL_RADIUS, ball, fabric, square};
 use toile_lab::{Lab, LabError, Run};
@@ -79,7 +79,7 @@ impl RestScene {
     }
 
     /// Puts the flat sheet near to where it will rest: the hammock along an arc, the cap around the sphere as a map around its pole.
-    fn place(self, model: &mut Model) {
+    fn place(self, model: &mut Arrays) {
         for position in &mut model.positions {
             let flat = position.as_dvec3();
             let placed = match self {
@@ -115,8 +115,7 @@ pub fn come_to_rest(lab: &Lab, scene: RestScene, change: RestSettings) -> Result
     settings.frame_rate = change.frame_rate;
     settings.velocity_modification =
         VelocityModification { sweeps: Some(change.sweeps), ..VelocityModification::new(change.rule) };
-    let mut model = Model::from_sheet(&scene.sheet(change.n), &settings);
-    scene.place(&mut model);
+    let model = Model::from_sheet(&scene.sheet(change.n), &settings).changed(|model| scene.place(model))?;
     let mut step = StepSettings::new(&settings, &model);
     step.dt /= change.step_division as f32;
     step.steps_per_frame *= change.step_division;

@@ -3,7 +3,7 @@
 use crate::Experiment;
 use crate::page::{Axis, Block, Cell, Plot, Section, Series, SeriesStyle, Table};
 use std::f64::consts::PI;
-use toile::model::{Model, StepSettings};
+use toile::model::{Arrays, Model, StepSettings};
 use toile::scene::{Rule, Shape, VelocityModification};
 use toile_lab::scenes::hanging_sheet;
 use toile_lab::{Lab, LabError};
@@ -64,12 +64,14 @@ pub fn stable_step(corner: &Corner) -> StableStep {
     fabric.bend_stiffness = 0.1 * corner.stiffness;
     fabric.damping = corner.damping;
     settings.velocity_modification = VelocityModification::new(corner.rule);
-    let mut model = Model::from_sheet(&sheet, &settings);
-    for i in (0..model.masses.len()).step_by(2) {
-        model.masses[i] *= corner.mass_ratio as f32;
-        model.inverse_masses[i] /= corner.mass_ratio as f32;
-    }
-    model.weigh_coarse_particles();
+    let heavy = |model: &mut Arrays| {
+        for i in (0..model.masses.len()).step_by(2) {
+            model.masses[i] *= corner.mass_ratio as f32;
+            model.inverse_masses[i] /= corner.mass_ratio as f32;
+        }
+        model.weigh_coarse_particles();
+    };
+    let model = Model::from_sheet(&sheet, &settings).changed(heavy).expect("particles of other masses");
     let links = || model.links.values.iter().map(|link| f64::from(link.stiffness));
     // The lightest of the inner particles.
     let mass = settings.fabric.areal_density / f64::from(corner.n - 1).powi(2);

@@ -22,6 +22,7 @@ const POINT_COUNT: f64 = 4000.0;
 /// The loop is filled by a fan from its centre; what of the fan is inside the body goes through it. Which limb that is, is not said, and a
 /// body part that only pokes into the fan counts as going through.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Opening {
     /// Its label, or the panels along it.
     pub name: String,

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 
 /// Where on a garment something is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Place {
     /// The panel that most of it is on.
     pub panel: String,

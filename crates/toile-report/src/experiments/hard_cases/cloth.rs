@@ -3,7 +3,7 @@
 use super::case::{Case, Course, Outcome, course};
 use glam::{DQuat, DVec2, DVec3};
 use toile::Colliders;
-use toile::model::{Model, StepSettings};
+use toile::model::{Arrays, Model, StepSettings};
 use toile::scene::{Curve, Edge, Garment, Panel, Placement, Settings, Sheet, Threshold};
 use toile_lab::scenes::{fabric, hanging_sheet};
 use toile_lab::{Lab, LabError, Random, Run};
@@ -28,7 +28,7 @@ pub(super) const MASSES: Case = Case {
     name: "masses 1000 : 1, in turns",
     must: "finite; elongation below 10 %",
     run: |lab| {
-        let heavy = |model: &mut Model| {
+        let heavy = |model: &mut Arrays| {
             for i in (0..model.masses.len()).step_by(2) {
                 model.masses[i] *= 1000.0;
                 model.inverse_masses[i] /= 1000.0;
@@ -55,7 +55,7 @@ pub(super) const COINCIDENT: Case = Case {
     name: "a whole row of coincident particles, and two neighbours in one place",
     must: "finite; elongation below 10 % at the end",
     run: |lab| {
-        let coincide = |model: &mut Model| {
+        let coincide = |model: &mut Arrays| {
             let n = N as usize;
             let place = model.positions[5 * n];
             model.positions[5 * n..6 * n].fill(place);
@@ -117,12 +117,11 @@ impl Judged {
 fn sheet(
     lab: &Lab,
     change: impl FnOnce(&mut Sheet, &mut Settings),
-    change_model: impl FnOnce(&mut Model),
+    change_model: impl FnOnce(&mut Arrays),
 ) -> Result<Judged, LabError> {
     let (mut sheet, mut settings) = hanging_sheet(N);
     change(&mut sheet, &mut settings);
-    let mut model = Model::from_sheet(&sheet, &settings);
-    change_model(&mut model);
+    let model = Model::from_sheet(&sheet, &settings).changed(change_model)?;
     let step = StepSettings::new(&settings, &model);
     Ok(Judged(course(lab, model, step, Colliders::default(), FRAMES)?.1))
 }
@@ -134,7 +133,7 @@ fn needle(lab: &Lab) -> Result<Outcome, LabError> {
     let panel = Panel { name: "needle".to_owned(), edges, placement };
     let garment = Garment { name: "needle".to_owned(), panels: vec![panel], seams: Vec::new(), fabric: None };
     let settings = Settings { spacing: 0.02, ..Settings::new(fabric()) };
-    let mut model = match Model::from_garment(&garment, &settings) {
+    let model = match Model::from_garment(&garment, &settings) {
         Ok(model) => model,
         Err(error) => {
             let happened = error.to_string();
@@ -145,10 +144,12 @@ fn needle(lab: &Lab) -> Result<Outcome, LabError> {
     // It hangs by its tip, and is pushed out of its plane.
     let count = model.particle_count();
     let tip = (0..count as usize).max_by(|a, b| model.positions[*a].y.total_cmp(&model.positions[*b].y));
-    tip.into_iter().for_each(|tip| model.inverse_masses[tip] = 0.0);
-    model.weigh_coarse_particles();
-    let random = &mut Random::new(lab.seed);
-    model.positions.iter_mut().for_each(|position| position.z += random.between(-1e-3, 1e-3));
+    let model = model.changed(|model| {
+        tip.into_iter().for_each(|tip| model.inverse_masses[tip] = 0.0);
+        model.weigh_coarse_particles();
+        let random = &mut Random::new(lab.seed);
+        model.positions.iter_mut().for_each(|position| position.z += random.between(-1e-3, 1e-3));
+    })?;
     let step = StepSettings::new(&settings, &model);
     let (_, course) = course(lab, model, step, Colliders::default(), FRAMES)?;
     Ok(Outcome { happened: format!("{count} particles; {}", course.words()), held: course.finite })
@@ -158,11 +159,10 @@ fn crumpled(lab: &Lab) -> Result<Outcome, LabError> {
     let (mut sheet, mut settings) = hanging_sheet(N);
     sheet.pins.clear();
     settings.gravity = DVec3::ZERO;
-    let mut model = Model::from_sheet(&sheet, &settings);
     let random = &mut Random::new(lab.seed);
-    for position in &mut model.positions {
-        *position = *position * 0.1 + random.vector(0.03);
-    }
+    let model = Model::from_sheet(&sheet, &settings).changed(|model| {
+        model.positions.iter_mut().for_each(|position| *position = *position * 0.1 + random.vector(0.03));
+    })?;
     let stored = spring_energy(&model);
     let mass: f64 = model.masses.iter().map(|mass| f64::from(*mass)).sum();
     let step = StepSettings::new(&settings, &model);

@@ -38,8 +38,7 @@ fn rest(lab: &Lab, model: Model, settings: Settings, sphere: Option<Shape>) -> R
     let damped = StepSettings { damping: 3.0, ..step.clone() };
     let mut settling = Reference::new(&model, &damped, colliders.clone());
     (0..9000).for_each(|_| settling.step());
-    let mut at_rest = model;
-    at_rest.positions = settling.positions().to_vec();
+    let at_rest = model.changed(|model| model.positions = settling.positions().to_vec())?;
     let mut reference = Reference::new(&at_rest, &step, colliders);
     let mut speed: f32 = 0.0;
     let mut finite = true;

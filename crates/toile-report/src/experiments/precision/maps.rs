@@ -2,7 +2,7 @@
 
 use crate::page::{Axis, Block, Cell, Plot, Series, SeriesStyle, Table};
 use glam::{DVec3, Vec3};
-use toile::model::{MapBox, Model, StepSettings};
+use toile::model::{MapBox, StepSettings};
 use toile::scene::{Mesh, Settings};
 use toile_lab::scenes::body;
 use toile_lab::{Lab, LabError};
@@ -113,7 +113,7 @@ fn is_seen(maps: &SideMaps, place: DVec3) -> bool {
 pub fn map_error(body: &Mesh, exact: &ExactDistance, shell: &Shell, probing: Probing) -> MapError {
     let maps = draw(body, probing, THICKNESS);
     let settings = Settings::new(toile_lab::scenes::fabric());
-    let step = StepSettings::new(&settings, &Model::default());
+    let step = StepSettings::new(&settings, &toile_lab::fixtures::free_particle());
     let probes = sample_sides(&shell.points, &vec![Vec3::ZERO; shell.points.len()], &maps, &step);
     let mut depths = [Vec::new(), Vec::new()];
     let mut moves = [Vec::new(), Vec::new()];

@@ -6,7 +6,7 @@ use std::time::Instant;
 use toile::Colliders;
 use toile::gpu::contents::{Encode, constant, uniform, with_w};
 use toile::gpu::{BodyMaps, MapSpace, Surface};
-use toile::model::{MapBox, Model, SideBox, Solid, StepSettings};
+use toile::model::{Arrays, MapBox, Model, SideBox, Solid, StepSettings};
 use toile::scene::{MapKind, Mesh, Settings};
 use toile_kernels::Kernel;
 use toile_lab::fixtures::woman;
@@ -104,13 +104,8 @@ fn probes(gpu: &Gpu, body: &Mesh, around: &Surroundings, kind: MapKind) -> Resul
     let settings = settings();
     let drawn = DrawnMaps::draw(gpu, kind, &[(body, 0.0)], settings.texel as f32)?;
     let count = around.points.len();
-    let model = Model {
-        positions: around.points.clone(),
-        masses: vec![1.0; count],
-        inverse_masses: vec![1.0; count],
-        ..Model::default()
-    };
-    let sampled = Sampled { step: StepSettings::new(&settings, &Model::default()), model, drawn };
+    let model = Model::new(Arrays::of_particles(around.points.clone(), vec![1.0; count]))?;
+    let sampled = Sampled { step: StepSettings::new(&settings, &model), model, drawn };
     let kernel = match kind {
         MapKind::Sides => Kernel::SampleSides,
         MapKind::Layers => Kernel::SampleLayers,

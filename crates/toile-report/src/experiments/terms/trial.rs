@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3};
 use std::sync::Arc;
 use toile::Colliders;
 use toile::gpu::{BodyMaps, MapSpace, Surface};
-use toile::model::{Csr, MapBox, Model, StepSettings};
+use toile::model::{Arrays, Csr, MapBox, Model, StepSettings};
 use toile::scene::{Friction, MapKind, Mesh, Rule, Settings, Shape, ShapeMotion, VelocityModification, Wind};
 use toile_lab::scenes::{BALL_RADIUS, ball, fabric, hanging_sheet, square};
 use toile_lab::{Lab, LabError, Run};
@@ -63,8 +63,7 @@ pub fn outcome(lab: &Lab, trial: Trial, n: u32, frames: u32) -> Result<Outcome, 
         Scene::Ball | Scene::MovingBall => square(n, 1.0, DVec3::new(-0.5, 0.256, 0.5), DVec3::NEG_Z, Vec::new()),
     };
     change_settings(trial, &mut settings);
-    let mut model = Model::from_sheet(&sheet, &settings);
-    change_model(trial, &mut model);
+    let model = Model::from_sheet(&sheet, &settings).changed(|model| change_model(trial, model))?;
     let step = StepSettings::new(&settings, &model);
     let moving = match trial.scene {
         Scene::MovingBall => Some(MovingBall::new(lab, &step, trial.changed != Some(Term::VelocityMap))?),
@@ -113,7 +112,7 @@ fn change_settings(trial: Trial, settings: &mut Settings) {
 }
 
 /// Takes out of the model what the settings cannot switch off.
-fn change_model(trial: Trial, model: &mut Model) {
+fn change_model(trial: Trial, model: &mut Arrays) {
     match trial.changed {
         // A spring without stiffness pulls at nothing, but would still be looked at.
         Some(Term::BendSprings) => {

@@ -50,16 +50,17 @@ pub fn drape(seed: u64, fabric: Fabric, spacing: f64, seconds: f64) -> Result<Dr
     // Where it comes to rest is asked, not how.
     settings.fabric.damping = 5.0;
     let thickness = settings.fabric.thickness as f32;
-    let mut model = Model::from_garment(&sample(), &settings)?;
     let random = &mut Random::new(seed);
-    for (position, weight) in model.positions.iter_mut().zip(&mut model.inverse_masses) {
-        let clamped = f64::from(position.length()) < SUPPORT - 0.5 * spacing;
-        // A flat ring would not know where to fold.
-        let offset = if clamped { 0.0 } else { random.between(-5e-5, 5e-5) };
-        *weight *= if clamped { 0.0 } else { 1.0 };
-        position.z = thickness + offset;
-    }
-    model.weigh_coarse_particles();
+    let model = Model::from_garment(&sample(), &settings)?.changed(|model| {
+        for (position, weight) in model.positions.iter_mut().zip(&mut model.inverse_masses) {
+            let clamped = f64::from(position.length()) < SUPPORT - 0.5 * spacing;
+            // A flat ring would not know where to fold.
+            let offset = if clamped { 0.0 } else { random.between(-5e-5, 5e-5) };
+            *weight *= if clamped { 0.0 } else { 1.0 };
+            position.z = thickness + offset;
+        }
+        model.weigh_coarse_particles();
+    })?;
     let step = StepSettings::new(&settings, &model);
     let disc = cylinder(SUPPORT as f32, 0.3, 64);
     let surface = Surface { mesh: &disc, thickness, velocities: None, open: false };

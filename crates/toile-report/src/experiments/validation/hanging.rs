@@ -79,14 +79,17 @@ pub fn catenary_sag(span: f64, cells: u32) -> f64 {
         pins: [0, end].iter().flat_map(|&column| [0, 1].map(|row| Pin { column, row })).collect(),
         fabric: None,
     };
-    let mut model = Model::from_sheet(&sheet, &settings);
+    let model = Model::from_sheet(&sheet, &settings);
     // It starts as a V, which is as long as the cloth.
     let drop = (0.25 - 0.25 * span * span).sqrt();
-    for (i, position) in model.positions.iter_mut().enumerate() {
-        let along = (i as u32 % (cells + 1)) as f64 * cell;
-        position.x = (along * span) as f32;
-        position.y = (-2.0 * drop * along.min(1.0 - along)) as f32;
-    }
+    let hung = model.changed(|model| {
+        for (i, position) in model.positions.iter_mut().enumerate() {
+            let along = (i as u32 % (cells + 1)) as f64 * cell;
+            position.x = (along * span) as f32;
+            position.y = (-2.0 * drop * along.min(1.0 - along)) as f32;
+        }
+    });
+    let model = hung.expect("particles at other places");
     let step = StepSettings::new(&settings, &model);
     let Some(end) = settled(&model, &step, Default::default(), 150) else { return f64::NAN };
     -f64::from(end.positions().iter().map(|p| p.y).fold(f32::INFINITY, f32::min))
