@@ -75,7 +75,7 @@ fn a_body_that_jumps_takes_its_garments_along() {
     // Places at 40 m are told to 4 µm, and cloth that moves spreads that as it spreads any other nudge.
     let nudge = 4e-6;
     let spread = apart(&walked(&dressed, nudge, 0.0, 0.0), &still, nudge as f32, 0.0);
-    assert!(spread < 0.03, "{spread} m apart after {nudge} m");
+    assert!(spread < 0.05, "{spread} m apart after {nudge} m");
     for (distance, angle, seconds) in [(2.0, 0.0, 0.0), (0.0, PI, 0.0), (40.0, 1.0, 1.0 / 24.0)] {
         let jumped = walked(&dressed, distance, angle, seconds);
         let [told] = jumped.teleports[..] else { panic!("one jump: {:?}", jumped.teleports) };

@@ -208,7 +208,7 @@ fn passes(row: &Row, model: &Model, settings: &StepSettings, level: &Level, span
             coloured(&level.colours, settings.level_passes(level), &|_, _| StepSettings::relaxation(level))
         }
         Domain::SeamPair => all(model.seam_pair_count()),
-        Domain::SeamColour => coloured(&model.seam_colours, 1, &whole),
+        Domain::SeamColour => coloured(&model.seam_colours, StepSettings::SEAM_PASSES, &whole),
         Domain::Workgroup => all(WORKGROUP_SIZE),
         Domain::Pin | Domain::Vertex | Domain::TrianglePart | Domain::Column => Vec::new(),
     }

@@ -56,7 +56,7 @@ pub enum Domain {
     LevelCluster,
     /// A seam pair.
     SeamPair,
-    /// A seam pair; one dispatch per colour.
+    /// A seam pair; one dispatch per colour and pass.
     SeamColour,
     /// A vertex of a body.
     Vertex,

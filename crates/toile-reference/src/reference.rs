@@ -202,7 +202,7 @@ impl Reference {
     /// whose maps lag so.
     fn sweep(&mut self, first: Option<Lag>) {
         let Self { model, settings, particles, contacts, pulls, .. } = self;
-        for colour in &model.seam_colours {
+        for colour in (0..StepSettings::SEAM_PASSES).flat_map(|_| &model.seam_colours) {
             step::draw_seams(particles, part(&model.seam_pairs, colour), settings.dt);
         }
         let touched = (!contacts.is_empty()).then_some(contacts.as_slice());
@@ -211,7 +211,7 @@ impl Reference {
             self.collide(first);
         }
         let Self { model, settings, particles, .. } = self;
-        for colour in &model.seam_colours {
+        for colour in (0..StepSettings::SEAM_PASSES).flat_map(|_| &model.seam_colours) {
             step::close_seams(particles, part(&model.seam_pairs, colour), settings.dt);
         }
     }

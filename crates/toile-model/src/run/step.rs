@@ -76,6 +76,10 @@ pub struct StepSettings {
 }
 
 impl StepSettings {
+    /// How often all seams are drawn and closed in a sweep. Where four particles meet at the corner of two seams, the pairs that are shut by then undo
+    /// what the open ones were given; once more and they do not.
+    pub const SEAM_PASSES: u32 = 2;
+
     /// The step of a model under the settings of its scene: the largest stable one times the safety factor, cut so that a
     /// whole number of steps makes a frame.
     pub fn new(settings: &Settings, model: &Model) -> Self {

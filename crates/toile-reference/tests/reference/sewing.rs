@@ -19,6 +19,42 @@ fn two_particles() -> Model {
     with_seam(model, SeamPair { ends: [0, 1], closing_speed: 2.0, seam: 0 })
 }
 
+/// Four particles at the corner of two seams: of one seam they meet already, and what is on one side of it is drawn along the gap of the other, by
+/// limits that answer once the seams were drawn.
+#[test]
+fn a_corner_of_two_seams_closes_at_its_speed() {
+    let settings = StepSettings { gravity: Vec3::ZERO, rule: Rule::Predictive, ..settings() };
+    let (gap, beside) = (0.04, Vec3::Y * 1e-9);
+    let [near, far, pin] = [0.0, gap, 10.0].map(|x| Vec3::X * x);
+    // Over-long by what 2 m/s do in a step.
+    let limit = |end, place: Vec3| Spring {
+        ends: [end, 4],
+        kind: SpringKind::Structural,
+        rest_length: (place.distance(pin) - 2.0 * settings.dt) / (1.0 + THRESHOLD),
+        stiffness: 0.0,
+        threshold: THRESHOLD,
+    };
+    let model = Parts {
+        positions: vec![near, far, near + beside, far + beside, pin],
+        masses: vec![3.3e-5, 1.9e-5, 3.8e-5, 3.7e-5, 1.0],
+        springs: vec![limit(2, near), limit(3, far)],
+        pins: vec![4],
+        ..Parts::default()
+    };
+    let pair = |ends, seam| SeamPair { ends, closing_speed: 0.3, seam };
+    let model = changed(model.model(), |model| {
+        model.seam_pairs = vec![pair([0, 1], 0), pair([2, 3], 0), pair([0, 2], 1), pair([1, 3], 1)];
+        model.seam_colours = vec![0..2, 2..4];
+    });
+    let mut reference = Reference::new(&model, &settings, Colliders::default());
+    reference.step();
+    let closed = 0.3 * settings.dt;
+    for [a, b] in [[0, 1], [2, 3]] {
+        let left = reference.positions()[a].distance(reference.positions()[b]);
+        assert!((gap - left - closed).abs() < 0.1 * closed, "{a} and {b} are {left} m apart");
+    }
+}
+
 #[test]
 fn a_seam_closes_at_its_speed_and_stays_closed() {
     let settings = StepSettings { gravity: Vec3::ZERO, ..settings() };
