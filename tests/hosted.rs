@@ -145,6 +145,20 @@ fn sheet_on(body: MovingMesh) -> Scene {
     scene
 }
 
+/// The host shows a mesh at rest, so far along x [m].
+fn show(simulation: &mut Simulation, mesh: &Mesh, x: f32) {
+    let mut mesh = mesh.clone();
+    mesh.positions.iter_mut().for_each(|p| p.x += x);
+    let still = vec![Vec3::ZERO; mesh.positions.len()];
+    simulation.set_vertices(interleaved(&mesh, &still, &mesh.positions, true));
+}
+
+/// The maps hold the ball, which is so far along x [m].
+fn check_maps(simulation: &Simulation, x: f32) {
+    let map_box = simulation.map_box().expect("there are maps");
+    assert!(map_box.corner().x < x - 0.25 && map_box.far_corner().x > x + 0.25, "{x} m: {map_box:?}");
+}
+
 fn advance(simulation: &mut Simulation, seconds: f64) {
     gpu().run(|encoder| {
         simulation.advance(encoder, seconds).expect("it fits and stays finite");
@@ -190,11 +204,8 @@ fn the_maps_follow_a_body_that_the_host_skins() {
     let ball = rolling_ball(0.0).mesh;
     let mut simulation = Simulation::new(&gpu().device, &sheet_on(MovingMesh::hosted(ball.clone())));
     let simulation = simulation.as_mut().expect("its body is finite");
-    let still = vec![Vec3::ZERO; ball.positions.len()];
     let show = |simulation: &mut Simulation, x: f32| {
-        let mut mesh = ball.clone();
-        mesh.positions.iter_mut().for_each(|p| p.x += x);
-        simulation.set_vertices(interleaved(&mesh, &still, &mesh.positions, true));
+        show(simulation, &ball, x);
         advance(simulation, FRAME);
     };
     // 1.5 m/s, well beyond what the maps hold at first.
@@ -202,8 +213,7 @@ fn the_maps_follow_a_body_that_the_host_skins() {
         show(simulation, 0.025 * frame as f32);
         simulation.stage().expect("the body is within its maps");
     }
-    let map_box = simulation.map_box().expect("there are maps");
-    assert!(map_box.corner().x < 1.475 - 0.25 && map_box.far_corner().x > 1.475 + 0.25, "{map_box:?}");
+    check_maps(simulation, 1.475);
     // A jump that is told is none to the maps; one that is not is an error, until they have followed.
     gpu().run(|encoder| simulation.teleport(encoder, DVec3::X * 40.0));
     for _ in 0..3 {
@@ -225,14 +235,11 @@ fn the_maps_follow_where_answers_come_late() {
     let ball = rolling_ball(0.0).mesh;
     let scene = sheet_on(MovingMesh::hosted(ball.clone()));
     let mut simulation = Simulation::new(&gpu().device, &scene).expect("its body is finite");
-    let still = vec![Vec3::ZERO; ball.positions.len()];
     // It sets off within half a second, and then goes 1.2 m/s: 0.14 m in seven frames, where there is room for 0.1 m.
     let x = |frame: u32| if frame < 30 { frame.pow(2) as f32 / 3000.0 } else { 0.3 + 0.02 * (frame - 30) as f32 };
     for batch in 0..20 {
         let frames = (4 * batch..4 * batch + 4).map(|frame| {
-            let mut mesh = ball.clone();
-            mesh.positions.iter_mut().for_each(|p| p.x += x(frame));
-            simulation.set_vertices(interleaved(&mesh, &still, &mesh.positions, true));
+            show(&mut simulation, &ball, x(frame));
             let mut encoder = gpu().device.create_command_encoder(&Default::default());
             simulation.advance(&mut encoder, FRAME).expect("it fits and stays finite");
             simulation.stage().expect("the body is within its maps");
@@ -242,8 +249,7 @@ fn the_maps_follow_where_answers_come_late() {
         gpu().queue.submit(frames);
         gpu().device.poll(wgpu::PollType::wait_indefinitely()).expect("the device answers");
     }
-    let map_box = simulation.map_box().expect("there are maps");
-    assert!(map_box.corner().x < x(79) - 0.25 && map_box.far_corner().x > x(79) + 0.25, "{map_box:?}");
+    check_maps(&simulation, x(79));
 }
 
 /// A body that has gone 1.5 m away, and 40 m by a teleport, is found where it was: by a reset, and by another simulation that goes on from its state.
@@ -252,15 +258,11 @@ fn a_reset_and_a_saved_state_find_the_body_where_it_was() {
     let ball = rolling_ball(0.0).mesh;
     let scene = sheet_on(MovingMesh::hosted(ball.clone()));
     let mut simulation = Simulation::new(&gpu().device, &scene).expect("its body is finite");
-    let still = vec![Vec3::ZERO; ball.positions.len()];
     let show = |simulation: &mut Simulation, x: f32| {
-        let mut mesh = ball.clone();
-        mesh.positions.iter_mut().for_each(|p| p.x += x);
-        simulation.set_vertices(interleaved(&mesh, &still, &mesh.positions, true));
+        show(simulation, &ball, x);
         advance(simulation, FRAME);
         simulation.stage().expect("the body is within its maps");
-        let map_box = simulation.map_box().expect("there are maps");
-        assert!(map_box.corner().x < x - 0.25 && map_box.far_corner().x > x + 0.25, "{x} m: {map_box:?}");
+        check_maps(simulation, x);
     };
     (0..60).for_each(|frame| show(&mut simulation, 0.025 * frame as f32));
     let mut checkpoint = None;

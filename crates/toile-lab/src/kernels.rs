@@ -5,6 +5,7 @@ mod bits;
 mod compiled;
 mod input;
 mod seeded;
+mod seeded_bodies;
 mod seeded_levels;
 
 pub use answer::answer;

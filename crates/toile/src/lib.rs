@@ -14,6 +14,7 @@ mod error;
 mod fitting;
 mod frame;
 mod hosted_body;
+mod kept_maps;
 mod layer;
 mod outfit;
 mod pins;

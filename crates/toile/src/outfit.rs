@@ -2,6 +2,7 @@
 
 use crate::boxes::{Boxes, MapPlan};
 use crate::hosted_body::HostedBody;
+use crate::kept_maps::{KeptMaps, maps_of_round};
 use crate::layer::{Layer, Seen, raised};
 use crate::pins::Pins;
 use crate::{Cloth, Colliders, Error};
@@ -90,15 +91,6 @@ pub(crate) struct Outfit {
     hosted: Option<HostedBody>,
 }
 
-/// The maps of a body over one round of its motion.
-#[derive(Debug)]
-struct KeptMaps {
-    /// Time from one to the next [s].
-    interval: f64,
-    /// The first shows the body one interval after the start, the last at the end.
-    maps: Vec<(BodyMaps, MapBox)>,
-}
-
 /// How often the maps are drawn in a frame of so many steps: at least at the map rate, and so that the steps divide evenly.
 pub(crate) fn maps_per_frame(steps: u32, frame_rate: f64) -> u32 {
     let wanted = ((MAP_RATE / frame_rate).ceil() as u32).clamp(1, steps);
@@ -175,7 +167,7 @@ impl Outfit {
     /// Draws the maps of a whole round of the only body now and keeps them: later they are copied instead of drawn. D §7, W §6.
     ///
     /// # Panics
-    /// When [`Outfit::maps_of_round`] is none.
+    /// When [`maps_of_round`] is none.
     pub(crate) fn keep_maps(
         &mut self,
         kernels: &Kernels,
@@ -188,22 +180,10 @@ impl Outfit {
         let (Some(boxes), Some(first)) = (&self.boxes, self.layers.first().and_then(|layer| layer.maps.clone())) else {
             return Ok(());
         };
-        let kept: Vec<_> = (0..count).map(|_| BodyMaps::new(kernels, first.space())).collect::<Result<_, _>>()?;
-        let mut kept = kept.into_iter();
-        let mut maps = Vec::with_capacity(count as usize);
-        recorder(Part::Maps, &mut |encoder| {
-            let moving = &mut self.moving[0];
-            moving.record_pose(device, encoder, 0.0);
-            for (index, drawn) in (1..=count).zip(&mut kept) {
-                let time = f64::from(index) * interval;
-                moving.record_pose(device, encoder, time);
-                let map_box = boxes.at(time, DVec3::ZERO);
-                drawn.record(device, encoder, map_box, &[(moving.surface(), self.thickness)]);
-                maps.push((drawn, map_box));
-            }
-        })?;
+        let kept = KeptMaps::new(kernels, first.space(), boxes, count, interval)?;
+        recorder(Part::Maps, &mut |encoder| kept.record(device, encoder, &mut self.moving[0], self.thickness))?;
         self.posed = None;
-        self.kept = Some(KeptMaps { interval, maps });
+        self.kept = Some(kept);
         Ok(())
     }
 
@@ -512,11 +492,10 @@ impl Outfit {
     fn record_maps(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, time: f64) {
         if let Some(kept) = &self.kept {
             let innermost = self.layers.first().and_then(|layer| layer.maps.as_ref());
-            let index = (time / kept.interval).round() as usize + kept.maps.len() - 1;
-            let (maps, map_box) = &kept.maps[index % kept.maps.len()];
-            self.shown = Some(*map_box);
+            let (maps, map_box) = kept.at(time);
+            self.shown = Some(map_box);
             if let Some(innermost) = innermost {
-                innermost.record_copy(device, encoder, maps, *map_box);
+                innermost.record_copy(device, encoder, maps, map_box);
             }
             return;
         }
@@ -607,14 +586,7 @@ impl Outfit {
     pub(crate) fn bytes(&self) -> u64 {
         let seen = self.layers.iter().flat_map(|layer| &layer.seen);
         let trails = seen.map(|seen| seen.trail.bytes() + seen.raised.as_ref().map_or(0, Raised::bytes));
-        let kept = self.kept.iter().flat_map(|kept| &kept.maps).map(|(maps, _)| maps.bytes());
-        self.moving.iter().map(MovingBody::bytes).sum::<u64>() + trails.sum::<u64>() + kept.sum::<u64>()
+        let kept = self.kept.as_ref().map_or(0, KeptMaps::bytes);
+        self.moving.iter().map(MovingBody::bytes).sum::<u64>() + trails.sum::<u64>() + kept
     }
-}
-
-/// How many maps a round of a body has, one every `interval` seconds; `None` when its motion is not closed or not a whole number of
-/// intervals long.
-pub(crate) fn maps_of_round(body: &MovingMesh, interval: f64) -> Option<u32> {
-    let count = body.duration() / interval;
-    (body.is_closed() && (count - count.round()).abs() < 1e-3 && count >= 1.0).then(|| count.round() as u32)
 }

@@ -1,6 +1,7 @@
 //! A cloth that another simulation has dressed, put on while a run goes on.
 
-use crate::outfit::{Outfit, maps_of_round};
+use crate::kept_maps::maps_of_round;
+use crate::outfit::Outfit;
 use crate::simulation::{Phase, Simulation};
 use crate::stage::Stage;
 use crate::{Control, Error};

@@ -346,23 +346,29 @@ fn a_fast_point_meets_a_box_where_it_first_touches_it() {
     assert!(entry_error(false) > 0.03, "without the test of the whole way: {} m", entry_error(false));
 }
 
+/// How many particles of a sheet of n × n touch a shape at once, and how deep one is in it at most [m], in so many steps after it was let go.
+fn dropped_on(shape: &Shape, n: u32, step_count: u32) -> (usize, f64) {
+    let settings = StepSettings { dt: 1.0 / 600.0, rule: Rule::Predictive, sweeps: 2, damping: 0.5, ..settings() };
+    let model = Grid::horizontal(n, 0.03).model();
+    let mut reference = Reference::new(&model, &settings, Colliders { maps: None, shapes: vec![shape.clone()] });
+    let (mut touched, mut deepest) = (0, f64::NEG_INFINITY);
+    for step in 1..=step_count {
+        reference.step();
+        touched = touched.max(reference.contacts().iter().filter(|contact| contact.touching).count());
+        let time = f64::from(step) / 600.0;
+        let depths = reference.positions().iter().map(|position| shape.depth(position.as_dvec3(), time));
+        deepest = depths.fold(deepest, f64::max);
+    }
+    (touched, deepest)
+}
+
 #[test]
 fn a_sheet_dropped_on_a_box_stays_outside_also_where_it_turns() {
     let key = |time: f64| RigidKey { time, translation: DVec3::ZERO, rotation: DQuat::from_rotation_y(1.5 * time) };
     let turning = ShapeMotion::Keys(RigidMotion { keys: vec![key(0.0), key(1.0), key(2.0)] });
     for (motion, radius) in [(ShapeMotion::Still, 0.0), (ShapeMotion::Still, 0.05), (turning, 0.05)] {
         let shape = turned_box(radius, motion);
-        let settings = StepSettings { dt: 1.0 / 600.0, rule: Rule::Predictive, sweeps: 2, damping: 0.5, ..settings() };
-        let model = Grid::horizontal(21, 0.03).model();
-        let mut reference = Reference::new(&model, &settings, Colliders { maps: None, shapes: vec![shape.clone()] });
-        let (mut touched, mut deepest) = (0, f64::NEG_INFINITY);
-        for k in 0..900 {
-            reference.step();
-            touched = touched.max(reference.contacts().iter().filter(|contact| contact.touching).count());
-            let time = f64::from(k + 1) / 600.0;
-            let depths = reference.positions().iter().map(|position| shape.depth(position.as_dvec3(), time));
-            deepest = depths.fold(deepest, f64::max);
-        }
+        let (touched, deepest) = dropped_on(&shape, 21, 900);
         assert!(touched > 10, "{touched} particles touched the box");
         assert!(deepest < -1e-4, "{deepest} m deep, with edges of {radius} m");
     }
@@ -371,17 +377,7 @@ fn a_sheet_dropped_on_a_box_stays_outside_also_where_it_turns() {
 #[test]
 fn a_sheet_dropped_on_a_capsule_stays_outside() {
     let capsule = Shape::capsule([DVec3::new(-0.2, -0.3, 0.1), DVec3::new(0.2, -0.25, -0.1)], 0.2);
-    let settings = StepSettings { dt: 1.0 / 600.0, rule: Rule::Predictive, sweeps: 2, damping: 0.5, ..settings() };
-    let model = Grid::horizontal(21, 0.03).model();
-    let colliders = Colliders { maps: None, shapes: vec![capsule.clone()] };
-    let mut reference = Reference::new(&model, &settings, colliders);
-    let (mut touched, mut deepest) = (0, f64::NEG_INFINITY);
-    for _ in 0..1200 {
-        reference.step();
-        touched = touched.max(reference.contacts().iter().filter(|contact| contact.touching).count());
-        let depths = reference.positions().iter().map(|position| capsule.depth(position.as_dvec3(), 0.0));
-        deepest = depths.fold(deepest, f64::max);
-    }
+    let (touched, deepest) = dropped_on(&capsule, 21, 1200);
     assert!(touched > 20, "{touched} particles touched the capsule");
     assert!(deepest < -4e-4, "{deepest} m deep");
 }
@@ -391,17 +387,7 @@ fn a_sheet_dropped_on_a_capsule_stays_outside() {
 fn a_sheet_that_falls_on_a_plane_that_swings_stays_above_it() {
     let swing = ShapeMotion::Swing { amplitude: DVec3::new(0.0, 0.1, 0.0), period: 0.5 };
     let plane = Shape { motion: swing, ..Shape::plane(DVec3::new(0.0, -0.2, 0.0), DVec3::new(0.1, 1.0, 0.0)) };
-    let settings = StepSettings { dt: 1.0 / 600.0, rule: Rule::Predictive, sweeps: 2, damping: 0.5, ..settings() };
-    let model = Grid::horizontal(9, 0.03).model();
-    let mut reference = Reference::new(&model, &settings, Colliders { maps: None, shapes: vec![plane.clone()] });
-    let (mut touched, mut deepest) = (0, f64::NEG_INFINITY);
-    for step in 0..300 {
-        reference.step();
-        touched = touched.max(reference.contacts().iter().filter(|contact| contact.touching).count());
-        let time = f64::from(step + 1) / 600.0;
-        let depths = reference.positions().iter().map(|position| plane.depth(position.as_dvec3(), time));
-        deepest = depths.fold(deepest, f64::max);
-    }
+    let (touched, deepest) = dropped_on(&plane, 9, 300);
     assert!(touched > 40, "{touched} particles touched the plane");
     assert!(deepest < 0.0, "{deepest} m deep");
 }
