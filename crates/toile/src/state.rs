@@ -15,7 +15,7 @@ use toile_gpu::readback;
 use toile_model::{Dressing, DressingStage, Motion, Piece, Status, digest_of};
 
 /// What the bytes begin with; another layout has another number.
-const MAGIC: &[u8] = b"toile state 5\n";
+const MAGIC: &[u8] = b"toile state 6\n";
 
 /// The whole state of a simulation.
 #[derive(Debug, Serialize, Deserialize)]

@@ -24,6 +24,9 @@ const EASING_SECONDS: f32 = 0.5;
 /// A garment is far too tight for its limits when, eased, it has a spring that is stretched by its threshold and this [1]. No garment that fits
 /// has one, and one that is only a little too tight gives way into its thickness, as evenly as it would otherwise.
 const TIGHT_ABOVE: f32 = 0.1;
+/// A garment that is sewn with a spring so much longer than its threshold allows [1] yields at once: limits over many cells would take that
+/// back within a step, and throw the garment through the body.
+const FAR_TOO_TIGHT_ABOVE: f32 = 0.4;
 /// Simulated time that such a garment has to find where it must stretch [s].
 const YIELDING_SECONDS: f32 = 0.5;
 /// Simulated time that a garment has to come to rest [s].
@@ -60,6 +63,8 @@ pub struct Dressing {
     seam_gap: f32,
     /// An eased garment whose largest elongation is above this is too tight for its limits [1].
     tight: f32,
+    /// A sewn one whose largest elongation is above this yields at once [1].
+    far_too_tight: f32,
     /// The step at which it began to yield.
     yielding_from: u64,
     /// Widest gap when it last had closed by [`STUCK_GAP`] [m], and the step of that.
@@ -81,6 +86,7 @@ impl Dressing {
             draping_steps: 0,
             seam_gap: 0.0,
             tight: open.threshold.most() as f32 + TIGHT_ABOVE,
+            far_too_tight: open.threshold.most() as f32 + FAR_TOO_TIGHT_ABOVE,
             yielding_from: 0,
             closing: (f32::INFINITY, 0),
             seen_step: 0,
@@ -137,15 +143,15 @@ impl Dressing {
                 if status.seam_gap_max <= SEAM_GAP || is_stuck || is_late {
                     let is_narrow = status.seam_gap_max <= MERGED_GAP;
                     self.is_left_open = !is_narrow;
-                    self.stage = DressingStage::Easing;
+                    let yields = self.may_yield && is_narrow && status.elongation_max > self.far_too_tight;
+                    self.stage = self.yielding_or(yields, DressingStage::Easing, status);
                 }
             }
             DressingStage::Easing => {
                 self.draping_steps = status.step - self.sewing_steps;
                 if self.draping_steps as f32 * self.dt >= EASING_SECONDS {
                     let yields = self.may_yield && !self.is_left_open && status.elongation_max > self.tight;
-                    self.stage = if yields { DressingStage::Yielding } else { DressingStage::Draping };
-                    self.yielding_from = status.step;
+                    self.stage = self.yielding_or(yields, DressingStage::Draping, status);
                 }
             }
             DressingStage::Yielding => {
@@ -169,6 +175,15 @@ impl Dressing {
             DressingStage::Dressed => {}
         }
         self.stage
+    }
+
+    /// The next stage of a garment that yields, from this status on, or of one that does not.
+    fn yielding_or(&mut self, yields: bool, otherwise: DressingStage, status: &Status) -> DressingStage {
+        if !yields {
+            return otherwise;
+        }
+        self.yielding_from = status.step;
+        DressingStage::Yielding
     }
 }
 

@@ -8,6 +8,10 @@ use std::collections::HashMap;
 /// How often stretch is evened out between neighbours on a line. Sweeps leave it on every second spring, which one round ends.
 const ROUNDS: usize = 4;
 
+/// How much more than its neighbours' a stretch may stay than a limit is let out by [1]. Nodes that are near to each other may lead half of
+/// a garment each: what their limit takes back in a step throws it.
+const SPIKE: f32 = 0.1;
+
 /// By how much limits are let out, and what they were before.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LetOut {
@@ -54,7 +58,8 @@ impl Model {
             a.distance(b) / limit.rest_length - 1.0
         };
         let next = self.next_on_lines(open, merge);
-        let mut stretch: Vec<f32> = self.limits.iter().map(elongation).collect();
+        let own: Vec<f32> = self.limits.iter().map(elongation).collect();
+        let mut stretch = own.clone();
         for _ in 0..ROUNDS {
             let mut sums: Vec<[f32; 2]> = stretch.iter().map(|own| [2.0 * own, 2.0]).collect();
             for &[a, b] in &next {
@@ -66,6 +71,7 @@ impl Model {
             }
             stretch = sums.into_iter().map(|[sum, weight]| sum / weight).collect();
         }
+        stretch.iter_mut().zip(own).for_each(|(stretch, own)| *stretch = stretch.max(own - SPIKE));
         let aim = aim(self.rule);
         let ratio = |(limit, stretch): (&Limit, &f32)| {
             let threshold = (limit.max_length / limit.rest_length - 1.0) / aim;

@@ -104,6 +104,21 @@ fn what_is_too_tight_yields_before_it_drapes() {
 }
 
 #[test]
+fn what_is_sewn_far_too_tight_yields_at_once() {
+    let sewn = |rule, gap, elongation_max| {
+        let mut dressing = dressing_under(rule);
+        let stuck = (0..40).map(|frame| Status { elongation_max, ..status(frame * FRAME, gap) });
+        let stage = |status: Status| dressing.advance(&status, &Motion::default());
+        stuck.map(stage).find(|stage| *stage != DressingStage::Sewing).expect("seams that do not move are stuck")
+    };
+    // Cotton allows 5 %.
+    assert_eq!(sewn(Rule::Hierarchical, 0.0, 0.44), DressingStage::Easing);
+    assert_eq!(sewn(Rule::Hierarchical, 0.0, 0.46), DressingStage::Yielding);
+    assert_eq!(sewn(Rule::Hierarchical, 0.03, 0.46), DressingStage::Easing, "what is left open has no sewn cloth yet");
+    assert_eq!(sewn(Rule::Predictive, 0.0, 0.46), DressingStage::Easing, "all springs share");
+}
+
+#[test]
 fn rest_is_where_particles_stay_whatever_their_velocities_say() {
     let mut dressing = dressing();
     let sewn = sew(&mut dressing, |_| 0.0);
