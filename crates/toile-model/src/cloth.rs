@@ -2,6 +2,7 @@
 
 mod assemble;
 mod attachments;
+mod bend_lines;
 mod bending;
 mod check;
 mod clusters;

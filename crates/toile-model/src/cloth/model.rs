@@ -60,7 +60,7 @@ pub struct Arrays {
     pub stiffness: [f32; 3],
     /// Bending rigidity by areal density [m⁴/s²]; 0 leaves bending to the stiffness of the bend springs.
     pub bending: f64,
-    /// Smallest part of the bending rigidity that the step carries anywhere [1]; 1 is all of it.
+    /// Part of the bending rigidity that the step carries, as the mean over the cloth [1]; 1 is all of it.
     pub bending_carried: f64,
     /// Elongation that the fabric allows, by direction.
     pub threshold: Threshold,

@@ -1,6 +1,6 @@
 //! Bending rigidity: the flat cloth is at rest, and a bent one has the energy that a laboratory's number says.
 
-use crate::support::settings;
+use crate::support::{garment, rectangle, settings};
 use glam::{DVec3, dvec2};
 use toile_model::Model;
 use toile_scene::{Rule, Settings, Sheet};
@@ -56,9 +56,16 @@ fn energy(model: &Model, places: &[DVec3]) -> f64 {
 
 #[test]
 fn a_flat_sheet_with_bending_rigidity_is_at_rest() {
-    let spacing = 0.01;
-    let model = sheet(8, spacing, RIGIDITY);
-    let push = 2.0 * RIGIDITY / spacing;
+    for (cells, spacing) in [(8, 0.01), (20, 0.004), (30, 0.002)] {
+        let model = sheet(cells, spacing, RIGIDITY);
+        assert_at_rest(&model, 1e-4 * 2.0 * RIGIDITY / spacing);
+        let stressed = model.links.values.iter().filter(|link| link.rest_length < 0.999 * spacing as f32).count();
+        assert!(stressed > 100, "the sides pull: {stressed} of them");
+    }
+}
+
+/// Checks that springs leave no particle more than a force [N].
+fn assert_at_rest(model: &Model, force_max: f64) {
     for i in 0..model.positions.len() {
         let force: DVec3 = model
             .links
@@ -71,16 +78,15 @@ fn a_flat_sheet_with_bending_rigidity_is_at_rest() {
             })
             .sum();
         // Rest lengths are f32: about 1e-9 m, times a stiffness of a few N/m.
-        assert!(force.length() < 1e-4 * push, "particle {i}: {force}, of {push} N");
+        assert!(force.length() < force_max, "particle {i}: {force}, of {force_max} N");
     }
-    let stressed = model.links.values.iter().filter(|link| link.rest_length < 0.99 * spacing as f32).count();
-    assert!(stressed > 100, "the sides pull: {stressed} of them");
 }
 
 /// ½·B·κ² per area, whatever the spacing; the first and last column do not bend.
 #[test]
 fn a_rolled_sheet_has_the_energy_of_its_rigidity() {
-    for (cells, spacing) in [(12, 0.01), (24, 0.008)] {
+    // Across two sides, across four, and across more than a row has.
+    for (cells, spacing) in [(12, 0.01), (24, 0.008), (24, 0.006), (40, 0.004), (10, 0.004)] {
         for rigidity in [0.2 * RIGIDITY, 0.5 * RIGIDITY] {
             let model = sheet(cells, spacing, rigidity);
             assert_eq!(model.bending_carried, 1.0);
@@ -107,9 +113,34 @@ fn without_rigidity_a_small_curvature_costs_almost_nothing() {
     assert!((at(8.0) / at(4.0) - 16.0).abs() < 0.2, "{} and {}", at(8.0), at(4.0));
 }
 
+/// Across eight sides, which is as many as a row has, the step carries 21 times what it does across two.
 #[test]
 fn what_the_step_cannot_carry_is_told() {
-    let coarse = sheet(8, 0.01, RIGIDITY).bending_carried;
-    let fine = sheet(8, 0.004, RIGIDITY).bending_carried;
-    assert!(coarse == 1.0 && fine < 0.2, "{coarse} and {fine}");
+    let carried = |spacing| sheet(8, spacing, RIGIDITY).bending_carried;
+    assert_eq!([carried(0.01), carried(0.004)], [1.0; 2]);
+    let [fine, finer] = [carried(0.002), carried(0.001)];
+    assert!((0.05..0.9).contains(&fine), "{fine}");
+    assert!((15.9..16.1).contains(&(fine / finer)), "it falls with the fourth power of the spacing: {fine} to {finer}");
+}
+
+/// Arches of eight sides and more, in sheets whose rows have fewer, and around tubes that are hardly longer or shorter around.
+#[test]
+fn no_two_springs_join_the_same_particles() {
+    let spacing = 0.004;
+    let mut models = vec![sheet(8, 0.01, RIGIDITY), sheet(20, spacing, RIGIDITY), sheet(8, 0.002, RIGIDITY)];
+    for cells in 2..8 {
+        let side = |name, depth| rectangle(name, [spacing * f64::from(cells), 0.06], depth);
+        let tube = garment(vec![side("front", 0.01), side("back", -0.01)], &[([0, 1], [1, 1]), ([0, 3], [1, 3])]);
+        let (model, _) = Model::from_garment(&tube, &fabric(spacing, RIGIDITY)).expect("it meshes").sewn();
+        assert!(model.bending_carried > 0.2, "{} of a tube of {} sides", model.bending_carried, 2 * cells);
+        models.push(model);
+    }
+    for model in models {
+        for i in 0..model.positions.len() {
+            let mut others: Vec<u32> = model.links.row(i).iter().map(|link| link.other).collect();
+            others.sort_unstable();
+            assert!(others.windows(2).all(|pair| pair[0] < pair[1]), "particle {i}: {others:?}");
+            assert!(!others.contains(&(i as u32)), "particle {i} and itself");
+        }
+    }
 }

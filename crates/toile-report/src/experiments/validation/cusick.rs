@@ -13,6 +13,8 @@ use toile_reference::maps::{BodyMaps, Surface, render_sides};
 /// Radius of the supporting disc and of the sample [m].
 const SUPPORT: f64 = 0.09;
 const SAMPLE: f64 = 0.15;
+/// Thickness of the disc [m]: cloth hangs free below it.
+const DISC: f32 = 0.01;
 
 /// Published bands of the drape coefficient [%] of cloth like the presets; none is known for jersey as a whole.
 pub const BANDS: [(&str, Option<[f64; 2]>); 5] = [
@@ -62,7 +64,7 @@ pub fn drape(seed: u64, fabric: Fabric, spacing: f64, seconds: f64) -> Result<Dr
         model.weigh_coarse_particles();
     })?;
     let step = StepSettings::new(&settings, &model);
-    let disc = cylinder(SUPPORT as f32, 0.3, 64);
+    let disc = cylinder(SUPPORT as f32, DISC, 64);
     let surface = Surface { mesh: &disc, thickness, velocities: None, open: false };
     let maps = BodyMaps::around(MapKind::Sides, &[surface], settings.texel as f32);
     let colliders = Colliders { maps: Some(maps), shapes: Vec::new() };
@@ -102,7 +104,7 @@ pub(super) fn blocks(lab: &mut Lab) -> Result<Vec<Block>, LabError> {
         ["speed at the end", "m/s"],
     ];
     let mut table = Table::new(caption, columns);
-    let spacings = lab.pick(vec![0.0125], vec![0.015, 0.0125, 0.01, 0.0075]);
+    let spacings = lab.pick(vec![0.0125], vec![0.015, 0.0125, 0.01, 0.0075, 0.005, 0.004]);
     for (name, band) in BANDS {
         for &spacing in &spacings {
             lab.say(0.6, &format!("drape coefficient of {name} at {spacing} m"))?;
