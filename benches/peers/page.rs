@@ -28,7 +28,8 @@ fn plot(rows: &[Row], adapter: &str, options: &Options) -> Plot {
     let mut series: Vec<(String, Vec<[f64; 2]>)> = Vec::new();
     let mut left_out = 0;
     for row in rows {
-        let name = format!("{}: {} {}", row.program, row.scene, row.n);
+        // The legend is narrow.
+        let name = format!("{}: {} {}", row.program.replace(" scheme, ours", ""), row.scene, row.n);
         let Some(figures) = figures(row) else {
             left_out += 1;
             continue;
@@ -99,8 +100,8 @@ fn table(rows: &[Row], adapter: &str, options: &Options) -> Table {
 fn caption(adapter: &str, options: &Options) -> String {
     format!(
         "A sheet of 1 m × 1 m and 0.2 kg/m², n × n particles, damped by 0.1 /s, {} frames of 1/60 s: `hang` swings down from level on two held \
-         corners, `ball` falls from 0.2 m on a sphere of radius 0.25 m. Times are medians over {} repetitions in turns of the median frame without the first \
-         two; toile on {adapter}, NvCloth's scheme in our own code on one thread of the CPU, Taichi on all of its cores, of which there are {}.",
+         corners, `ball` falls from 0.2 m on a sphere of radius 0.25 m. Times are those of the median frame after the first two, of it the median of {} repetitions in \
+         turns; toile on {adapter}, NvCloth's scheme in our own code on one thread of the CPU, Taichi on all of its cores, of which there are {}.",
         options.frames,
         options.repetitions,
         std::thread::available_parallelism().map_or(1, usize::from)
@@ -115,7 +116,8 @@ fn figures(row: &Row) -> Option<Figures> {
     let largest = |of: fn(&Figures) -> f64| all.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
     let farthest = all.iter().max_by(|a, b| a.middle.distance(row.stiff).total_cmp(&b.middle.distance(row.stiff)))?;
     Some(Figures {
-        milliseconds: times[times.len() / 2],
+        // Of an even number, the mean of the two in the middle.
+        milliseconds: 0.5 * (times[(times.len() - 1) / 2] + times[times.len() / 2]),
         elongation_max_over_run: largest(|figures| figures.elongation_max_over_run),
         elongation_max: largest(|figures| figures.elongation_max),
         elongation_p99: largest(|figures| figures.elongation_p99),

