@@ -12,6 +12,7 @@ mod lab;
 mod largest;
 pub mod motion;
 mod network;
+pub mod peers;
 mod random;
 mod run;
 pub mod scenes;
