@@ -91,11 +91,11 @@ pub fn write(
     let mut meshes = Vec::new();
     let mut drawn = Vec::new();
     for Shown { name, mesh } in bodies {
-        meshes.push(NamedMesh { name, mesh, colour: Material::SKIN.linear_outside() });
+        meshes.push(NamedMesh::new(name, mesh, Material::SKIN.linear_outside()));
         drawn.push(Drawn::body(mesh));
     }
     for (index, (Shown { name, mesh }, thickness)) in cloths.iter().enumerate() {
-        meshes.push(NamedMesh { name, mesh, colour: Material::cloth(index).linear_outside() });
+        meshes.push(NamedMesh::new(name, mesh, Material::cloth(index).linear_outside()));
         drawn.push(Drawn::cloth(mesh, index, *thickness));
     }
     write_glb(&folder.join("dressed.glb"), &meshes)?;

@@ -292,11 +292,7 @@ fn finish(walk: &Walk, walkers: &[Walker], saved: &Saved, running: &Running) -> 
     let faces: Vec<MovingFaces<'_>> = walkers
         .iter()
         .enumerate()
-        .map(|(i, walker)| MovingFaces {
-            name: &walker.name,
-            triangles: &walker.triangles,
-            colour: Material::cloth(i).linear_outside(),
-        })
+        .map(|(i, walker)| MovingFaces::new(&walker.name, &walker.triangles, Material::cloth(i).linear_outside()))
         .collect();
     let progress = Progress::new("files", running.hides_progress());
     let points = |mesh: usize, frame: usize| -> Result<Vec<Vec3>> {
