@@ -252,8 +252,7 @@ fn draw(walk: &Walk, body: &Mesh, cloths: &[Mesh], stage: [Vec3; 2]) -> Result<V
     let worn = cloths.iter().zip(walk.fit.scene.fabrics()).enumerate();
     let mut drawn = vec![Drawn::body(body)];
     drawn.extend(worn.map(|(i, (mesh, fabric))| Drawn::cloth(mesh, i, fabric.thickness)));
-    let views = walk.views.iter().map(|view| picture::render_in(&drawn, stage, *view, walk.height));
-    Ok(views.collect::<Result<Vec<_>, _>>()?)
+    Ok(picture::render(&drawn, Some(stage), &walk.views, walk.height)?)
 }
 
 fn picture_path(folder: &Path, frame: u32) -> std::path::PathBuf {
