@@ -212,8 +212,10 @@ fn simulate(walk: &Walk, gpu: &Gpu, simulation: &mut Simulation, saved: &Saved, 
             }
             cloths.push(mesh);
         }
+        let pictures = Instant::now();
         let views = draw(walk, &body, &cloths, stage.at(time))?;
         picture::save_png(&picture_path(&running.out, frame), &picture::strip(&views))?;
+        row.picture_ms = 1e3 * pictures.elapsed().as_secs_f64();
         row.output_ms = 1e3 * output.elapsed().as_secs_f64();
         saved.write(frame, &simulation.save(&gpu.queue)?, &points, Some(&row))?;
         progress.reach(frame);

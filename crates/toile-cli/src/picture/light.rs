@@ -11,7 +11,7 @@ use std::f32::consts::{PI, TAU};
 const SKY_PAIRS: usize = 32;
 /// Most shadow map cells along the radius of the scene, for the surroundings.
 const SKY_CELLS: f32 = 160.0;
-/// Shadow map cells per pixel, for the surroundings: each lamp gives a hundredth of the light, and all together blur their edges.
+/// Shadow map cells per pixel, for the surroundings: each direction gives little of the light, so that its edges need not be sharp.
 const SKY_FINENESS: f32 = 0.5;
 /// Directions that make up the key light.
 const KEY_LAMPS: usize = 12;
@@ -212,9 +212,10 @@ impl ShadowMap {
         let axes = Axes::from(toward);
         // What lies far out of the picture shades nothing in it.
         let [low, high] = axes.bounds(&soup.positions).map(|corner| corner.clamp(-SHADE, SHADE));
-        // Two free cells all around, so that a comparison at the rim finds cells without anything in them.
-        let origin = Vec2::new(-low.x, high.y) * cells + 2.0;
-        let [width, height] = ((high - low) * cells).to_array().map(|v| v.ceil() as usize + 4);
+        // Two free cells all around, so that a comparison at the rim finds cells without anything in them. The cells lie where they lay in the
+        // picture before, whatever has moved: shadows of what stands still do not flicker.
+        let origin = (Vec2::new(-low.x, high.y) * cells).ceil() + 2.0;
+        let [width, height] = ((high - low) * cells).to_array().map(|v| v.ceil() as usize + 5);
         let projection = Projection::new(axes, origin, cells);
         let corners: Vec<Corner> = soup.positions.iter().map(|p| projection.project(*p)).collect();
         let mut near = vec![f32::NEG_INFINITY; width * height];
