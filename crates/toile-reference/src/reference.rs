@@ -36,7 +36,7 @@ impl Colliders {
 /// use glam::vec3;
 /// use toile_model::{Arrays, Model, StepSettings};
 /// use toile_reference::{Colliders, Reference};
-/// use toile_scene::{Fabric, Settings};
+/// use toile_scene::{Fabric, Rule, Settings};
 ///
 /// let model = Model::new(Arrays::of_particles(vec![vec3(0.0, 1.0, 0.0)], vec![0.001])).expect("a particle is a model");
 /// let mut settings = StepSettings::new(&Settings::new(Fabric::preset("cotton").expect("a preset")), &model);
@@ -44,6 +44,7 @@ impl Colliders {
 /// settings.steps_per_frame = 10;
 /// settings.gravity = vec3(0.0, -10.0, 0.0);
 /// settings.damping = 0.0;
+/// settings.rule = Rule::Predictive;
 /// let mut reference = Reference::new(&model, &settings, Colliders::default());
 /// reference.frame();
 /// assert_eq!(reference.status().step, 10);
