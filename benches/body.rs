@@ -45,27 +45,19 @@ fn measure(bench: &Bench, body: &Mesh, kind: MapKind) {
     let bounds = body.bounds().expect("an ellipsoid has vertices");
     let thickness = scene.fabric.thickness as f32;
     let map_box = MapBox::around([bounds[0] - thickness, bounds[1] + thickness], scene.texel as f32);
-    let space = MapSpace { kind, map_box, moving: false, area: body.area() };
+    let space = MapSpace::new(kind, map_box, body.area());
     let maps = BodyMaps::new(&bench.device, &space).unwrap_or_else(|error| panic!("{error}"));
     let surface = Surface::new(&bench.device, body, map_box.texel);
     let drawing = (0..10)
         .map(|_| run(bench, |encoder| maps.record(&bench.device, encoder, map_box, &[(&surface, thickness)])))
         .fold(f64::INFINITY, f64::min);
 
-    let sheet = Sheet {
-        name: "sheet".to_owned(),
-        columns: SIZE,
-        rows: SIZE,
-        size: DVec2::splat(1.0),
-        corner: DVec3::new(-0.5, 0.82, 0.5),
-        right: DVec3::X,
-        down: DVec3::NEG_Z,
-        pins: Vec::new(),
-        fabric: None,
-    };
+    let mut sheet = Sheet::new("sheet", [SIZE, SIZE], DVec2::splat(1.0));
+    sheet.corner = DVec3::new(-0.5, 0.82, 0.5);
+    sheet.down = DVec3::NEG_Z;
     let model = Model::from_sheet(&sheet, &scene);
     let settings = StepSettings::new(&scene, &model);
-    let colliders = Colliders { maps: Some(Arc::new(maps)), shapes: Vec::new() };
+    let colliders = Colliders::new(Some(Arc::new(maps)), Vec::new());
     let mut cloth = Cloth::new(&bench.device, &model, &settings, colliders).unwrap_or_else(|error| panic!("{error}"));
     for _ in 0..FRAMES {
         run(bench, |encoder| cloth.record(&bench.device, encoder));

@@ -46,12 +46,9 @@ fn row(name: &str, gpu: &Gpu, fit: &Fit, seconds: f64) {
 fn fitted(name: &str, spacing: f64, body: MovingMesh) -> Fit {
     let mut settings = settings(spacing);
     settings.frame_rate = 30.0;
-    let scene = Scene {
-        name: "heading".to_owned(),
-        cloths: vec![Cloth::Garment(garment(name))],
-        bodies: vec![Body::Moving(body)],
-        settings,
-    };
+    let mut scene = Scene::new("heading", settings);
+    scene.cloths = vec![Cloth::Garment(garment(name))];
+    scene.bodies = vec![Body::Moving(body)];
     Fit::new(&scene, &FitOptions::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 

@@ -81,7 +81,7 @@ fn hanging(n: &str) -> (Model, StepSettings, Colliders) {
         toile::scene::Body::Shape(shape) => Some(shape),
         _ => None,
     });
-    (model, step, Colliders { maps: None, shapes: shapes.collect() })
+    (model, step, Colliders::new(None, shapes.collect()))
 }
 
 fn row(name: &str, start: impl Fn(&Bench) -> [f64; 2]) {

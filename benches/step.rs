@@ -41,7 +41,7 @@ fn measure(bench: &Bench, name: &str, size: u32) {
     let scene = scene(name, &[("n", &size.to_string())]);
     let model = sheet_model(&scene);
     let settings = StepSettings::new(&scene.settings, &model);
-    let mut cloth = Cloth::new(&bench.device, &model, &settings, Colliders { maps: None, shapes: shapes(&scene) })
+    let mut cloth = Cloth::new(&bench.device, &model, &settings, Colliders::new(None, shapes(&scene)))
         .unwrap_or_else(|error| panic!("{error}"));
     let cost = bench.step_cost(&mut cloth, STEPS);
     let particles = f64::from(model.particle_count());
@@ -69,7 +69,7 @@ fn measure_host(bench: &Bench, name: &str, size: u32, polish: Option<&str>) {
     let scene = scene(name, &keys);
     let model = sheet_model(&scene);
     let settings = StepSettings::new(&scene.settings, &model);
-    let mut cloth = Cloth::new(&bench.device, &model, &settings, Colliders { maps: None, shapes: shapes(&scene) })
+    let mut cloth = Cloth::new(&bench.device, &model, &settings, Colliders::new(None, shapes(&scene)))
         .unwrap_or_else(|error| panic!("{error}"));
     let steps = settings.steps_per_frame as usize;
     let dispatches = steps * cloth.plan().step.len() + cloth.plan().frame.len();

@@ -13,10 +13,11 @@ use glam::{DVec3, Vec3};
 use support::Bench;
 use toile::gpu::readback;
 use toile::model::{Arrays, Limit, Model, StepSettings};
-use toile::scene::{Polish, Rule, Scene, Settings, Sheet, Threshold, VelocityModification};
+use toile::scene::{Polish, Rule, Scene, Sheet, Threshold, VelocityModification};
 use toile::{Cloth, Colliders, Strain};
 use toile_lab::Random;
 use toile_lab::fixtures::{scene, shapes, sheet_model};
+use toile_lab::with;
 
 const RULES: [(&str, Rule); 3] =
     [("none", Rule::None), ("predictive", Rule::Predictive), ("hierarchical", Rule::Hierarchical)];
@@ -122,11 +123,12 @@ impl Row {
         let mut scene = scene(name, &[("n", &n.to_string())]);
         // A polish works under the predictive rules alone.
         let polish = options.polish.filter(|_| rule != Rule::None);
-        scene.settings.velocity_modification = VelocityModification { polish, ..VelocityModification::new(rule) };
+        scene.settings.velocity_modification = VelocityModification::new(rule);
+        scene.settings.velocity_modification.polish = polish;
         scene.settings.fabric.threshold = Threshold::even(options.threshold);
         let model = sheet_model(&scene);
         let settings = StepSettings::new(&scene.settings, &model);
-        let colliders = Colliders { maps: None, shapes: shapes(&scene) };
+        let colliders = Colliders::new(None, shapes(&scene));
         let mut cloth =
             Cloth::new(&bench.device, &model, &settings, colliders).unwrap_or_else(|error| panic!("{error}"));
         let frames = options.frames.unwrap_or(if name == "moving-ball" { 240 } else { 120 });
@@ -214,17 +216,21 @@ fn read(bench: &Bench, buffer: &wgpu::Buffer) -> Vec<Vec3> {
 
 /// A sheet without pins, body, gravity, damping and springs, crumpled at random, for half a second: only limits act.
 fn free_sheet(bench: &Bench, scene: &Scene) -> [f64; 2] {
-    let mut settings = Settings { gravity: DVec3::ZERO, ..scene.settings.clone() };
+    let mut settings = scene.settings.clone();
+    settings.gravity = DVec3::ZERO;
     let fabric = &mut settings.fabric;
     (fabric.structural_stiffness, fabric.shear_stiffness, fabric.bend_stiffness) = (0.0, 0.0, 0.0);
     fabric.damping = 0.0;
-    let free = Sheet { columns: 64, rows: 64, pins: Vec::new(), ..sheet(scene).clone() };
+    let mut free = sheet(scene).clone();
+    free.columns = 64;
+    free.rows = 64;
+    free.pins = Vec::new();
     let random = &mut Random::new(1);
     let crumple =
         |model: &mut Arrays| model.positions.iter_mut().for_each(|position| *position += random.vector(0.004));
     let model = Model::from_sheet(&free, &settings).changed(crumple).expect("particles elsewhere");
     let step = StepSettings::new(&settings, &model);
-    let mut cloth = Cloth::new(&bench.device, &model, &StepSettings { steps_per_frame: 1, ..step }, Default::default())
+    let mut cloth = Cloth::new(&bench.device, &model, &with(step, |step| step.steps_per_frame = 1), Default::default())
         .unwrap_or_else(|error| panic!("{error}"));
     let mut one_step = || {
         let mut encoder = bench.device.create_command_encoder(&Default::default());

@@ -4,6 +4,7 @@ use glam::{DVec3, Vec3, dvec3, vec3};
 use std::collections::BTreeMap;
 use toile::{Cloth, Colliders};
 use toile_lab::fixtures::scene;
+use toile_lab::with;
 use toile_model::{Model, PinTarget, StepSettings};
 use toile_reference::Reference;
 use toile_scene::{Cloth as Cut, RigidKey, RigidMotion, Scene, Settings, Shape, ShapeMotion, Sheet, Wind};
@@ -25,14 +26,14 @@ impl Twin {
     /// A sheet that hangs on two corners in a calm, beside a sphere.
     fn hanging() -> Self {
         let Scene { mut settings, mut cloths, .. } = scene("hang", &[("n", "16")]);
-        settings.wind = Some(Wind { pressure: 0.01, ..Wind::new(DVec3::ZERO) });
+        settings.wind = Some(with(Wind::new(DVec3::ZERO), |wind| wind.pressure = 0.01));
         let Cut::Sheet(sheet) = cloths.remove(0) else { panic!("it is a sheet") };
         let shapes = vec![Shape::sphere(BELOW, 0.2)];
         let model = Model::from_sheet(&sheet, &settings);
         let step = StepSettings::new(&settings, &model);
-        let colliders = Colliders { maps: None, shapes: shapes.clone() };
+        let colliders = Colliders::new(None, shapes.clone());
         let cloth = Cloth::new(&gpu().device, &model, &step, colliders).expect("it fits the device");
-        let reference = Reference::new(&model, &step, toile_reference::Colliders { maps: None, shapes });
+        let reference = Reference::new(&model, &step, toile_reference::Colliders::new(None, shapes));
         Self { sheet, settings, model, cloth, reference }
     }
 
@@ -98,7 +99,7 @@ fn gravity_wind_damping_and_friction_change_without_new_buffers() {
     assert!((twin.mean() - before).dot(vec3(3.0, 6.0, 0.0)) > 0.1, "it falls to where gravity points now");
     twin.change(|settings| {
         settings.gravity = DVec3::ZERO;
-        settings.wind = Some(Wind { pressure: 5.0, ..Wind::new(dvec3(0.0, 0.0, 8.0)) });
+        settings.wind = Some(with(Wind::new(dvec3(0.0, 0.0, 8.0)), |wind| wind.pressure = 5.0));
     });
     let before = twin.mean();
     twin.frames(20);
@@ -178,7 +179,8 @@ fn a_shape_goes_where_the_host_has_it() {
     // Into the cloth, in a third of a second, and then away at once.
     let key = |time: f64, y: f64| RigidKey { time, translation: dvec3(0.0, y, 0.0), rotation: Default::default() };
     let motion = ShapeMotion::Keys(RigidMotion { keys: vec![key(time, 0.0), key(time + 0.3, 1.6)] });
-    let pushing = Shape { motion, ..Shape::sphere(BELOW, 0.2) };
+    let mut pushing = Shape::sphere(BELOW, 0.2);
+    pushing.motion = motion;
     for (shape, touches) in [(pushing, true), (Shape::sphere(5.0 * BELOW, 0.2), false)] {
         twin.cloth.set_shapes(vec![shape.clone()]);
         twin.reference.set_shapes(vec![shape]);
@@ -221,7 +223,7 @@ fn a_wind_that_no_pass_knows_is_refused() {
     let model = Model::from_sheet(&sheet, &settings);
     let step = StepSettings::new(&settings, &model);
     let mut cloth = Cloth::new(&gpu().device, &model, &step, Colliders::default()).expect("it fits the device");
-    let windy = step.with_numbers_of(&Settings { wind: Some(Wind::new(DVec3::X)), ..settings });
+    let windy = step.with_numbers_of(&with(settings, |settings| settings.wind = Some(Wind::new(DVec3::X))));
     gpu().run(|encoder| cloth.record_settings(&gpu().device, encoder, &windy));
 }
 

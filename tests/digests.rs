@@ -16,7 +16,7 @@ fn digests_of_the_garments() {
         let step = StepSettings::new(&settings, &open);
         let surface = Surface { mesh: &body, thickness: step.thickness, velocities: None, open: false };
         let maps = BodyMaps::around(settings.maps, &[surface], settings.texel as f32);
-        let mut reference = Reference::new(&open, &step.sewing(), Colliders { maps: Some(maps), shapes: Vec::new() });
+        let mut reference = Reference::new(&open, &step.sewing(), Colliders::new(Some(maps), Vec::new()));
         (0..5).for_each(|_| reference.frame());
         writeln!(text, "{name}, sewn for 5 frames\n{}", reference.digest()).expect("a string grows");
         let (sewn, merge) = open.sewn();
@@ -37,7 +37,7 @@ fn digests_of_the_scenes() {
         let scene = scene(name, &[("n", "17")]);
         let model = sheet_model(&scene);
         let step = StepSettings::new(&scene.settings, &model);
-        let colliders = Colliders { maps: None, shapes: shapes(&scene) };
+        let colliders = Colliders::new(None, shapes(&scene));
         let mut reference = Reference::new(&model, &step, colliders);
         (0..20).for_each(|_| reference.frame());
         writeln!(text, "{name}, 20 frames\n{}", reference.digest()).expect("a string grows");

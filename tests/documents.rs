@@ -1,4 +1,4 @@
-//! The pages of the repository: every link leads to a file that is there, and to a heading that it has.
+//! The pages of the repository: every link leads to a file that is there, and to a heading that it has. What they say of the code is so.
 
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 use std::fs;
@@ -112,4 +112,59 @@ fn a_dead_link_of_every_kind_is_seen() {
         faults[0], faults[1], faults[2], faults[3], faults[4]
     );
     assert_eq!(dead(&page, &text), faults);
+}
+
+/// Every Rust file below a folder.
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
+    entries
+        .flat_map(|path| if path.is_dir() { sources(&path) } else { vec![path] })
+        .filter(|path| path.extension().is_some_and(|ending| ending == "rs"))
+        .collect()
+}
+
+/// Public structs that a host may write with all their fields.
+fn open_structs(source: &str) -> Vec<String> {
+    let mut open = Vec::new();
+    let mut lines = source.lines();
+    let mut is_closed = false;
+    while let Some(line) = lines.next() {
+        let Some(rest) = line.strip_prefix("pub struct ") else {
+            is_closed = line == "#[non_exhaustive]" || is_closed && (line.starts_with("#[") || line.starts_with("///"));
+            continue;
+        };
+        if rest.ends_with('{') && !is_closed {
+            let mut fields = lines.by_ref().take_while(|line| *line != "}").map(str::trim);
+            if fields.all(|line| line.starts_with("pub ") || line.starts_with("//") || line.starts_with("#[")) {
+                let name = rest.split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default();
+                open.push(name.to_owned());
+            }
+        }
+        is_closed = false;
+    }
+    open
+}
+
+#[test]
+fn the_structs_with_open_fields_are_those_that_the_page_names() {
+    let page = fs::read_to_string(root().join("docs/decisions/control.md")).expect("a page");
+    let told = page.split("- Open are").nth(1).and_then(|rest| rest.split("\n- Ranges").next()).expect("it names them");
+    let mut named: Vec<&str> = told.split('`').skip(1).step_by(2).collect();
+    let crates = ["toile", "toile-scene", "toile-files", "toile-model", "toile-gpu"];
+    let found = crates.map(|name| sources(&root().join("crates").join(name).join("src"))).concat();
+    let mut open: Vec<String> =
+        found.iter().flat_map(|path| open_structs(&fs::read_to_string(path).expect("a source"))).collect();
+    named.sort_unstable();
+    open.sort_unstable();
+    assert_eq!(
+        open, named,
+        "a struct that may grow is #[non_exhaustive]; one whose fields are complete stands on the page"
+    );
+}
+
+#[test]
+fn a_struct_is_open_when_all_its_fields_are() {
+    let source = "pub struct Open<'a> {\n    /// A field.\n    pub a: &'a f32,\n}\n#[non_exhaustive]\npub struct Closed {\n    pub a: f32,\n}\n\
+        pub struct Private {\n    pub a: f32,\n    b: f32,\n}\n";
+    assert_eq!(open_structs(source), ["Open"]);
 }

@@ -177,7 +177,7 @@ fn frames_recorded_together_are_frames_recorded_one_by_one() {
     let model = Model::from_sheet(&sheet, &ball.settings);
     let step = StepSettings::new(&ball.settings, &model);
     let positions = |at_once: bool| {
-        let colliders = Colliders { maps: None, shapes: vec![sphere.clone()] };
+        let colliders = Colliders::new(None, vec![sphere.clone()]);
         let mut cloth = Cloth::new(&gpu().device, &model, &step, colliders).expect("it fits the device");
         if at_once {
             gpu().run(|encoder| (0..6).for_each(|_| cloth.record(&gpu().device, encoder)));

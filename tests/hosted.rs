@@ -30,11 +30,14 @@ fn interleaved(mesh: &Mesh, velocities: &[Vec3], last: &[Vec3], by_velocity: boo
         true => HostMotion::Velocities(attribute(2)),
         false => HostMotion::LastPositions(attribute(3)),
     };
-    HostVertices { positions: attribute(0), normals: attribute(1), motion: Some(motion) }
+    let mut vertices = HostVertices::new(attribute(0), attribute(1));
+    vertices.motion = Some(motion);
+    vertices
 }
 
 fn walking() -> MovingMesh {
-    let options = toile::files::BodyOptions { clip: Some("walk_loop".to_owned()), ..Default::default() };
+    let mut options = toile::files::BodyOptions::default();
+    options.clip = Some("walk_loop".to_owned());
     let path = fixture("bodies/walking_woman.glb");
     toile::files::read_moving_body(&path, &options).unwrap_or_else(|error| panic!("{error}")).body
 }
@@ -73,8 +76,7 @@ fn the_maps_of_the_hosts_buffers_are_those_of_the_file() {
     let mut hosted = MovingBody::new(device, &MovingMesh::hosted(woman.mesh.clone()), 0.02).expect("it fits");
     let skinned = file.surface().clone();
     let whole = |buffer| HostAttribute::new(buffer, 0, 16);
-    let vertices =
-        HostVertices { positions: whole(&skinned.positions), normals: whole(&skinned.normals), motion: None };
+    let vertices = HostVertices::new(whole(&skinned.positions), whole(&skinned.normals));
     for time in [0.3, 0.3 + FRAME] {
         hosted.give(device, &vertices, time, FRAME).expect("it fits the device");
         gpu().run(|encoder| {
@@ -84,7 +86,8 @@ fn the_maps_of_the_hosts_buffers_are_those_of_the_file() {
     }
     let [low, high] = woman.at(0.3 + FRAME).bounds().expect("she has vertices");
     let map_box = MapBox::around([low, high], 0.02);
-    let space = MapSpace { kind: MapKind::Layers, map_box, moving: true, area: woman.mesh.area() };
+    let mut space = MapSpace::new(MapKind::Layers, map_box, woman.mesh.area());
+    space.moving = true;
     let [file, hosted] = [drawn(&file, &space), drawn(&hosted, &space)];
     let (mut layers, mut moving) = (0, 0);
     for (one, other) in file.iter().zip(&hosted) {
@@ -344,7 +347,7 @@ fn the_pass_has_the_bits_of_its_reference_in_a_window_of_a_large_buffer() {
     words.extend(mesh.positions.iter().flat_map(|p| p.to_array()));
     let buffer = gpu().upload(bytemuck::cast_slice(&words), STORAGE);
     let attribute = HostAttribute::new(&buffer, 4 * first as u64, 12);
-    let vertices = HostVertices { positions: attribute.clone(), normals: attribute, motion: None };
+    let vertices = HostVertices::new(attribute.clone(), attribute);
     let mut body = MovingBody::new(device, &MovingMesh::hosted(mesh.clone()), 0.01).expect("it fits");
     body.give(device, &vertices, 0.0, FRAME).expect("it fits");
     gpu().run(|encoder| body.record_pose(device, encoder, 0.0));

@@ -13,7 +13,8 @@ use toile_scene::{Body, Cloth, MapKind, Mesh, Motion, MovingMesh, RigidKey, Rule
 use toile_workspace::gpu;
 
 fn walking(clip: &str) -> MovingMesh {
-    let options = toile::files::BodyOptions { clip: Some(clip.to_owned()), ..Default::default() };
+    let mut options = toile::files::BodyOptions::default();
+    options.clip = Some(clip.to_owned());
     let path = fixture("bodies/walking_woman.glb");
     toile::files::read_moving_body(&path, &options).unwrap_or_else(|error| panic!("{error}")).body
 }
@@ -117,7 +118,8 @@ fn the_velocity_map_shows_how_a_turning_body_moves() {
         body.record_pose(&gpu().device, encoder, 0.199);
         body.record_pose(&gpu().device, encoder, 0.2);
     });
-    let space = MapSpace { kind: MapKind::Sides, map_box, moving: true, area: 0.0 };
+    let mut space = MapSpace::new(MapKind::Sides, map_box, 0.0);
+    space.moving = true;
     let maps = DrawnMaps::draw_surfaces(gpu(), &[(body.surface(), 0.0)], &space).expect("the device answers");
     let (maps, map_box) = (maps.sides(), SideBox::of(&map_box));
     let layers = maps.velocities.as_ref().expect("a moving body");
@@ -156,9 +158,8 @@ fn whole_frames_agree(kind: MapKind) {
         frame(&mut simulation);
         let maps = seen_maps(&simulation).remove(0);
         assert!(velocities(&maps).iter().any(|v| v.x > 0.5));
-        let reference = reference.get_or_insert_with(|| {
-            Reference::new(&model, &settings, Colliders { maps: Some(maps.clone()), shapes: Vec::new() })
-        });
+        let reference = reference
+            .get_or_insert_with(|| Reference::new(&model, &settings, Colliders::new(Some(maps.clone()), Vec::new())));
         reference.set_maps(maps);
         reference.steps(settings.steps_per_frame);
         let worn = simulation.cloths().next().expect("a sheet");
@@ -188,8 +189,9 @@ fn surface_between_two_poses(kind: MapKind) {
     let velocities = vertex_velocities(&before.positions, &after.positions, (1.0 / interval) as f32);
     let surface = Surface { mesh: &after, thickness: 0.0, velocities: Some(&velocities), open: false };
     let maps = BodyMaps::draw(kind, &[surface], map_box);
-    let settings = StepSettings::new(&sheet("4").1.settings, &free_particle());
-    let settings = StepSettings { swept: true, thickness: 0.0, ..settings };
+    let mut settings = StepSettings::new(&sheet("4").1.settings, &free_particle());
+    settings.swept = true;
+    settings.thickness = 0.0;
     let mut worst: [f32; 2] = [0.0; 2];
     for (share, step) in [(0.0, 0), (0.5, 8), (0.95, 15)] {
         let time = 0.3 - interval * (1.0 - share);
@@ -243,7 +245,7 @@ fn passed(kind: MapKind, speed: f64, swept: bool) -> usize {
         let surface =
             Surface { mesh: &after, thickness: settings.thickness, velocities: Some(&velocities), open: false };
         let maps = BodyMaps::draw(kind, &[surface], box_at(&ball, time, 0.01));
-        let colliders = Colliders { maps: Some(maps.clone()), shapes: Vec::new() };
+        let colliders = Colliders::new(Some(maps.clone()), Vec::new());
         let reference = reference.get_or_insert_with(|| Reference::new(&model, &settings, colliders));
         reference.set_maps(maps);
         reference.steps(settings.steps_per_frame);

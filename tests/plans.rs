@@ -7,7 +7,7 @@ use toile_gpu::{Maps, Pass, Plan};
 use toile_kernels::{Kernel, TABLE};
 use toile_lab::fixtures::{GARMENTS, SCENES, garment, scene, settings, shapes, sheet_model};
 use toile_model::{Model, StepSettings};
-use toile_scene::{Body, Polish, Rule, Scene, Settings, Wind};
+use toile_scene::{Body, Polish, Rule, Scene, Wind};
 
 fn plan(model: &Model, settings: &StepSettings, bodies: &[Body]) -> Plan {
     let maps = if bodies.iter().any(|body| matches!(body, Body::Mesh(_))) {
@@ -73,7 +73,8 @@ fn the_guard_halves_what_second_colours_take_in_its_last_pass_and_nothing_else_i
     let ball = scene("ball", &[]);
     let model = sheet_model(&ball);
     for guard_passes in [2, 4] {
-        let settings = StepSettings { guard_passes, ..StepSettings::new(&ball.settings, &model) };
+        let mut settings = StepSettings::new(&ball.settings, &model);
+        settings.guard_passes = guard_passes;
         let plan = plan(&model, &settings, &ball.bodies);
         let (mut guard, mut others) = (Vec::new(), Vec::new());
         for pass in &plan.step {
@@ -202,7 +203,8 @@ fn a_garment_is_sewn_and_eases_without_a_polish() {
 
 #[test]
 fn a_garment_is_dressed_without_wind() {
-    let windy = Settings { wind: Some(Wind::new(DVec3::X)), ..settings(0.03) };
+    let mut windy = settings(0.03);
+    windy.wind = Some(Wind::new(DVec3::X));
     let open = Model::from_garment(&garment("skirt"), &windy).unwrap_or_else(|error| panic!("{error}"));
     let step = StepSettings::new(&windy, &open);
     for (settings, wind) in [(&step, true), (&step.sewing(), false), (&step.easing(), false), (&step.draping(), false)]
@@ -240,7 +242,8 @@ fn a_pass_moves_what_its_items_reach() {
     let model = sheet_model(&hang);
     assert_eq!(model.levels[0].colours.len(), 4);
     let traffic = |limit_passes: u32| {
-        let settings = StepSettings { limit_passes, ..StepSettings::new(&hang.settings, &model) };
+        let mut settings = StepSettings::new(&hang.settings, &model);
+        settings.limit_passes = limit_passes;
         Plan::new(&model, &settings, Maps::None, false).traffic(&model, &settings, &[])
     };
     // 32 × 32 cells of a colour with 64 × 64 particles: 40 bytes of a cluster, 16 of a place; 16 of a shift are read and written.
@@ -254,7 +257,9 @@ fn a_particle_of_fine_cloth_costs_no_more_to_move() {
         let hang = scene("hang", &[("n", &n.to_string())]);
         let model = sheet_model(&hang);
         // Finer cloth has further passes, which are no matter here.
-        let settings = StepSettings { limit_passes: 2, guard_passes: 2, ..StepSettings::new(&hang.settings, &model) };
+        let mut settings = StepSettings::new(&hang.settings, &model);
+        settings.limit_passes = 2;
+        settings.guard_passes = 2;
         let bytes = Plan::new(&model, &settings, Maps::None, false).traffic(&model, &settings, &[]);
         bytes as f64 / f64::from(n * n)
     };

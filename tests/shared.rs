@@ -4,6 +4,7 @@ use toile::gpu::Kernels;
 use toile::{Cloth, Colliders, Simulation};
 use toile_kernels::TABLE;
 use toile_lab::fixtures::{garment, scene};
+use toile_lab::with;
 use toile_model::{Model, StepSettings};
 use toile_scene::{Body, Cloth as Cut, Fabric, Mesh, Scene, Settings};
 use toile_workspace::gpu;
@@ -57,12 +58,15 @@ fn all_of_them_are_made_at_once_and_a_dressing_needs_no_more() {
     let all = TABLE.len() + 2;
     assert_eq!(kernels.made_count(), all, "every kernel, and what draws the papers' maps of both kinds");
     let cotton = Settings::new(Fabric::preset("cotton").expect("a preset"));
-    let scene = Scene {
-        name: "two on a post".to_owned(),
-        cloths: ["skirt", "shirt_sleeveless"].map(|name| Cut::Garment(garment(name))).to_vec(),
-        bodies: vec![Body::Mesh(Mesh::sphere(glam::Vec3::Y, 0.1, 16))],
-        settings: Settings { spacing: 0.08, texel: 0.02, ..cotton },
-    };
+    let mut scene = Scene::new(
+        "two on a post",
+        with(cotton, |settings| {
+            settings.spacing = 0.08;
+            settings.texel = 0.02;
+        }),
+    );
+    scene.cloths = ["skirt", "shirt_sleeveless"].map(|name| Cut::Garment(garment(name))).to_vec();
+    scene.bodies = vec![Body::Mesh(Mesh::sphere(glam::Vec3::Y, 0.1, 16))];
     let mut simulation = Simulation::new(&kernels, &scene).expect("it can be dressed");
     for _ in 0..3 {
         gpu().run(|encoder| assert!(simulation.advance(encoder, 1.0 / 60.0).is_ok()));

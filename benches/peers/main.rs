@@ -202,7 +202,7 @@ fn toile(
     let [toile::scene::Cloth::Sheet(sheet)] = trial.scene.cloths.as_slice() else { panic!("a trial has one sheet") };
     let model = toile::model::Model::from_sheet(sheet, settings);
     let step = toile::model::StepSettings::new(settings, &model);
-    let colliders = Colliders { maps: None, shapes: shapes(&trial.scene) };
+    let colliders = Colliders::new(None, shapes(&trial.scene));
     let mut cloth = Cloth::new(&bench.device, &model, &step, colliders).map_err(|error| error.to_string())?;
     course(frames, limit, || {
         let start = Instant::now();

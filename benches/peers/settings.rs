@@ -40,8 +40,8 @@ pub fn programs(trial: &Trial) -> Vec<(Program, String)> {
     let toile = toile.into_iter().map(|(threshold, sweeps)| {
         let mut settings = trial.scene.settings.clone();
         settings.fabric.threshold = Threshold::even(threshold);
-        settings.velocity_modification =
-            VelocityModification { sweeps: Some(sweeps), ..VelocityModification::new(Rule::Hierarchical) };
+        settings.velocity_modification = VelocityModification::new(Rule::Hierarchical);
+        settings.velocity_modification.sweeps = Some(sweeps);
         let words = format!("threshold {:.0} %, sweeps {sweeps}", 1e2 * threshold);
         (Program::Toile(Box::new(settings)), words)
     });

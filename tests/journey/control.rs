@@ -4,6 +4,7 @@ use crate::support::{advance, gpu, positions, rolling, start, walking};
 use glam::{DVec3, Vec3, dvec3};
 use std::collections::BTreeMap;
 use toile::{Control, Error, Simulation, Stage};
+use toile_lab::with;
 use toile_scene::{Body, Fabric, Mesh, RigidKey, RigidMotion, Shape, ShapeMotion, Threshold, Wind};
 
 const FRAME: f64 = 1.0 / 60.0;
@@ -104,7 +105,7 @@ fn a_scene_need_not_begin_with_wind_or_shapes() {
     let before = positions(&simulation);
     let far = Shape::sphere(dvec3(0.0, -9.0, 0.0), 0.1);
     control(&mut simulation, |control| {
-        control.wind = Some(Wind { pressure: 3.0, ..Wind::new(dvec3(-6.0, 0.0, 0.0)) });
+        control.wind = Some(with(Wind::new(dvec3(-6.0, 0.0, 0.0)), |wind| wind.pressure = 3.0));
         control.shapes = vec![far.clone(), far.clone()];
     })
     .expect("it fits the device");
@@ -227,7 +228,7 @@ fn each_cloth_has_a_fabric_of_its_own() {
     control(&mut simulation, |control| control.fabrics[0].friction = 0.6).expect("it is in range");
     assert_eq!(seen(&simulation), [(after[1].0, 0.6, after[1].2)]);
     // A fabric that no cloth has is refused by the name of its cloth.
-    scene.cloths[1].set_fabric(Fabric { thickness: 1.0, ..silk });
+    scene.cloths[1].set_fabric(with(silk, |fabric| fabric.thickness = 1.0));
     let error = Simulation::new(&gpu().device, &scene).expect_err("no cloth is so thick");
     assert_eq!(error.to_string(), "sheet 1.fabric.thickness is 1 and must be 0 to 0.05 m");
 }
@@ -247,7 +248,10 @@ fn an_outfit_mixes_thicknesses() {
         let mut scene = rolling(2);
         scene.bodies = vec![Body::Mesh(Mesh::sphere(Vec3::ZERO, 0.25, 48))];
         for (cloth, thickness) in scene.cloths.iter_mut().zip(thicknesses) {
-            cloth.set_fabric(Fabric { thickness, damping: 5.0, ..scene.settings.fabric.clone() });
+            cloth.set_fabric(with(scene.settings.fabric.clone(), |fabric| {
+                fabric.thickness = thickness;
+                fabric.damping = 5.0;
+            }));
         }
         let mut simulation = start(&scene);
         advance_for(&mut simulation, 40);
@@ -268,7 +272,7 @@ fn an_outfit_mixes_thicknesses() {
 fn a_thin_garment_is_dressed_over_the_outer_face_of_a_thick_one() {
     let mut scene = walking(&["skirt", "shirt_sleeves"], "apose_to_walk");
     for (cloth, thickness) in scene.cloths.iter_mut().zip([0.009, 0.003]) {
-        cloth.set_fabric(Fabric { thickness, ..scene.settings.fabric.clone() });
+        cloth.set_fabric(with(scene.settings.fabric.clone(), |fabric| fabric.thickness = thickness));
     }
     let mut simulation = start(&scene);
     while simulation.cloths().count() < 2 {
@@ -279,7 +283,8 @@ fn a_thin_garment_is_dressed_over_the_outer_face_of_a_thick_one() {
     let [places, normals] = [&worn[0].cloth.frame().positions, &worn[0].cloth.frame().normals].map(|b| gpu().vec3s(b));
     let maps = worn[1].cloth.maps().expect("there are maps");
     let maps = toile_lab::read_maps(gpu(), maps, maps.space().map_box).expect("the device answers");
-    let settings = toile_model::StepSettings { swept: false, ..worn[1].cloth.settings().clone() };
+    let mut settings = worn[1].cloth.settings().clone();
+    settings.swept = false;
     let points: Vec<Vec3> = places.iter().zip(&normals).map(|(place, normal)| *place + 0.014 * *normal).collect();
     let still = vec![Vec3::ZERO; points.len()];
     let probes = toile_reference::step::sample_body_maps(&points, &still, &maps, Default::default(), &settings);

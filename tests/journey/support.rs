@@ -14,12 +14,10 @@ const TEXEL: f64 = 0.02;
 pub fn walking(garments: &[&str], clip: &str) -> Scene {
     let mut settings = settings(0.06);
     settings.texel = TEXEL;
-    Scene {
-        name: "walk".to_owned(),
-        cloths: garments.iter().map(|name| Cloth::Garment(garment(name))).collect(),
-        bodies: vec![Body::Moving(woman(clip))],
-        settings,
-    }
+    let mut scene = Scene::new("walk", settings);
+    scene.cloths = garments.iter().map(|name| Cloth::Garment(garment(name))).collect();
+    scene.bodies = vec![Body::Moving(woman(clip))];
+    scene
 }
 
 /// A garment at 6 cm on the built-in woman who stands still, her size across times `girth` [1].
@@ -34,7 +32,8 @@ pub fn standing(garment: &str, girth: f32) -> (Scene, Mesh) {
 
 /// The built-in woman with a clip.
 pub fn woman(clip: &str) -> MovingMesh {
-    let options = BodyOptions { clip: Some(clip.to_owned()), ..Default::default() };
+    let mut options = BodyOptions::default();
+    options.clip = Some(clip.to_owned());
     let path = fixture("bodies/walking_woman.glb");
     read_moving_body(&path, &options).unwrap_or_else(|error| panic!("{error}")).body
 }

@@ -42,7 +42,9 @@ impl Scene {
 
     fn space(&self, map_box: MapBox) -> MapSpace {
         let area = self.meshes.iter().map(|(mesh, _)| mesh.area()).sum();
-        MapSpace { kind: MapKind::Layers, map_box, moving: self.velocities.is_some(), area }
+        let mut space = MapSpace::new(MapKind::Layers, map_box, area);
+        space.moving = self.velocities.is_some();
+        space
     }
 
     /// What the device draws into maps.
@@ -56,7 +58,10 @@ impl Scene {
                     let padded: Vec<_> = all.iter().map(|v| v.extend(0.0)).collect();
                     gpu().upload(bytemuck::cast_slice(&padded), wgpu::BufferUsages::STORAGE)
                 });
-                Surface { velocities, open: surface.open, ..Surface::new(&gpu().device, surface.mesh, texel) }
+                let mut uploaded = Surface::new(&gpu().device, surface.mesh, texel);
+                uploaded.velocities = velocities;
+                uploaded.open = surface.open;
+                uploaded
             })
             .collect();
         let pairs: Vec<_> = uploaded.iter().map(|surface| (surface, 0.0)).collect();
@@ -183,7 +188,8 @@ fn what_does_not_fit_is_told() {
     let told = |meshes: Vec<Mesh>, area: f64| {
         let scene = Scene::still("", meshes);
         let map_box = MapBox::around([Vec3::splat(-0.2), Vec3::splat(0.2)], TEXEL);
-        let space = MapSpace { area, ..scene.space(map_box) };
+        let mut space = scene.space(map_box);
+        space.area = area;
         let drawn = scene.drawn(BodyMaps::new(&gpu().device, &space).expect("they fit"));
         drawn.maps.fault()
     };
@@ -208,7 +214,8 @@ fn errors(kind: MapKind, mesh: &Mesh) -> [f64; 2] {
     let surface = maps::Surface { mesh, thickness: 0.0, velocities: None, open: false };
     let maps = maps::BodyMaps::around(kind, &[surface], TEXEL);
     let exact = ExactDistance::new(mesh);
-    let step = StepSettings { thickness: 0.0, ..StepSettings::new(&settings(0.03), &free_particle()) };
+    let mut step = StepSettings::new(&settings(0.03), &free_particle());
+    step.thickness = 0.0;
     let points: Vec<Vec3> = mesh
         .triangles
         .iter()

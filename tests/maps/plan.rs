@@ -47,7 +47,7 @@ fn plan_and_bytes_do_not_depend_on_the_triangles_of_the_body() {
         let mesh = Mesh::sphere(Vec3::ZERO, 0.3, count);
         let layers =
             DrawnMaps::draw_in(gpu(), MapKind::Sides, &[(&mesh, THICKNESS)], map_box).expect("the device answers");
-        let colliders = toile::Colliders { maps: Some(layers.maps.clone()), shapes: Vec::new() };
+        let colliders = toile::Colliders::new(Some(layers.maps.clone()), Vec::new());
         let cloth = toile::Cloth::new(&gpu().device, &model, &settings, colliders).expect("it fits");
         (mesh.triangles.len(), cloth.plan().clone(), cloth.bytes(), layers.maps.bytes())
     };

@@ -5,7 +5,8 @@ use glam::Vec3;
 use std::collections::BTreeMap;
 use toile_kernels::Kernel;
 use toile_lab::kernels::Input;
-use toile_model::{NO_CORNER, ShapeKind, StepSettings};
+use toile_lab::with;
+use toile_model::{NO_CORNER, ShapeKind};
 use toile_reference::{Contact, Probe};
 
 /// How many items went into each branch.
@@ -403,8 +404,10 @@ fn sides(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usize
         counts[kind] += 1;
         counts[7] += usize::from(((next.x - map_box.origin_x) / map_box.texel).fract() == 0.0);
     }
-    let swept = StepSettings { swept: true, ..before.settings.clone() };
-    let unswept = StepSettings { swept: false, ..before.settings.clone() };
+    let mut swept = before.settings.clone();
+    swept.swept = true;
+    let mut unswept = before.settings.clone();
+    unswept.swept = false;
     let [with, without] = [swept, unswept]
         .map(|settings| toile_reference::step::sample_moving_sides(&points, &velocities, maps, before.lag, &settings));
     let differs = with.iter().zip(&without).filter(|(a, b)| a != b && a.distance.is_finite()).count();
@@ -439,7 +442,7 @@ fn layers(before: &Input, after: &Input, see: &mut impl FnMut(&'static str, usiz
     let by_sheet = |point: Vec3, probe: &Probe| probe.hit && point.y > 0.28 && probe.normal.distance(Vec3::Y) < 1e-6;
     see("is answered by the sheet", all().filter(|(point, probe)| by_sheet(**point, probe)).count());
     let [swept, unswept] = [true, false]
-        .map(|swept| StepSettings { swept, ..before.settings.clone() })
+        .map(|swept| with(before.settings.clone(), |step| step.swept = swept))
         .map(|settings| toile_reference::step::sample_moving_layers(&points, &velocities, maps, before.lag, &settings));
     let differs = swept.iter().zip(&unswept).filter(|(a, b)| a != b && a.distance.is_finite()).count();
     see("is answered where it enters", differs);

@@ -5,6 +5,7 @@ use toile::Cloth;
 use toile_lab::DrawnMaps;
 use toile_lab::fixtures::{scene, shapes, sheet_model};
 use toile_lab::kernels::{first_difference, vec3_words};
+use toile_lab::with;
 use toile_model::StepSettings;
 use toile_scene::{Friction, MapKind, Mesh, Polish, Rule, VelocityModification, Wind};
 use toile_workspace::{arrived, finish_frame, gpu};
@@ -14,8 +15,8 @@ fn a_hanging_sheet_agrees_under_every_rule() {
     for n in ["16", "33"] {
         for (_, rule) in Rule::ALL {
             let mut hang = scene("hang", &[("n", n)]);
-            hang.settings.velocity_modification =
-                VelocityModification { sweeps: Some(3), ..VelocityModification::new(rule) };
+            hang.settings.velocity_modification = VelocityModification::new(rule);
+            hang.settings.velocity_modification.sweeps = Some(3);
             let model = sheet_model(&hang);
             let mut life = Life::new(&model, &StepSettings::new(&hang.settings, &model), None, Vec::new());
             let status = life.agree(&format!("hang {n} {rule:?}"), 20);
@@ -34,8 +35,8 @@ fn a_sheet_on_a_sphere_agrees_under_every_rule_and_both_friction_laws() {
             for (_, rule) in Rule::ALL {
                 // Lower, so that it touches within few frames.
                 let mut ball = scene(name, &[("n", "17"), ("sheet.0.corner", "[-0.5, 0.256, 0.5]")]);
-                ball.settings.velocity_modification =
-                    VelocityModification { sweeps: Some(3), ..VelocityModification::new(rule) };
+                ball.settings.velocity_modification = VelocityModification::new(rule);
+                ball.settings.velocity_modification.sweeps = Some(3);
                 ball.settings.friction = law;
                 let model = sheet_model(&ball);
                 let mut life = Life::new(&model, &StepSettings::new(&ball.settings, &model), None, shapes(&ball));
@@ -65,7 +66,8 @@ fn a_sheet_that_its_guard_holds_agrees() {
     let hard = [("n", "17"), ("sweeps", "1"), ("gravity", "[0, -400, 0]"), ("sheet.0.corner", "[-0.5, 0.256, 0.5]")];
     let ball = scene("ball", &hard);
     let model = sheet_model(&ball);
-    let settings = StepSettings { guard_passes: 4, ..StepSettings::new(&ball.settings, &model) };
+    let mut settings = StepSettings::new(&ball.settings, &model);
+    settings.guard_passes = 4;
     Life::new(&model, &settings, None, shapes(&ball)).agree("ball, four passes of the guard", 10);
 }
 
@@ -77,8 +79,8 @@ fn a_polished_sheet_agrees_where_it_holds_and_where_it_misses() {
     {
         let hard = [("n", "17"), ("fabric.threshold", "0.01"), lower];
         let mut hard = scene(name, &hard);
-        hard.settings.velocity_modification =
-            VelocityModification { polish: Some(Polish { target, sweeps: 2 }), ..VelocityModification::new(rule) };
+        hard.settings.velocity_modification = VelocityModification::new(rule);
+        hard.settings.velocity_modification.polish = Some(Polish { target, sweeps: 2 });
         let model = sheet_model(&hard);
         let mut life = Life::new(&model, &StepSettings::new(&hard.settings, &model), None, shapes(&hard));
         let status = life.agree(&format!("{name} {rule:?}, polished"), 10);
@@ -93,7 +95,7 @@ fn a_sheet_in_wind_and_under_pressure_agrees_hanging_and_on_a_sphere() {
     for (name, velocity) in [("hang", glam::dvec3(1.0, 2.0, 8.0)), ("ball", glam::dvec3(3.0, -1.0, 0.0))] {
         let mut windy = scene(name, &[("n", "17")]);
         let model = sheet_model(&windy);
-        windy.settings.wind = Some(Wind { pressure: 3.0, ..Wind::new(velocity) });
+        windy.settings.wind = Some(with(Wind::new(velocity), |wind| wind.pressure = 3.0));
         let settings = StepSettings::new(&windy.settings, &model);
         Life::new(&model, &settings, None, shapes(&windy)).agree(&format!("{name} in wind and under pressure"), 20);
     }
@@ -120,9 +122,9 @@ fn whole_frames_of_a_simulation_agree() {
         let scene = if name == "hang" { scene(name, &[("n", "17")]) } else { scene(name, &[("n", "17"), lower]) };
         let model = sheet_model(&scene);
         let settings = StepSettings::new(&scene.settings, &model);
-        let colliders = toile::Colliders { maps: None, shapes: shapes(&scene) };
+        let colliders = toile::Colliders::new(None, shapes(&scene));
         let mut cloth = Cloth::new(&gpu().device, &model, &settings, colliders).expect("it fits");
-        let colliders = toile_reference::Colliders { maps: None, shapes: shapes(&scene) };
+        let colliders = toile_reference::Colliders::new(None, shapes(&scene));
         let mut reference = toile_reference::Reference::new(&model, &settings, colliders);
         for _ in 0..3 {
             gpu().run(|encoder| (0..5).for_each(|_| cloth.record(&gpu().device, encoder)));
@@ -141,7 +143,8 @@ fn a_force_of_the_wrong_sign_is_seen_in_the_first_step() {
     let model = sheet_model(&hang);
     let settings = StepSettings::new(&hang.settings, &model);
     let mut life = Life::new(&model, &settings, None, Vec::new());
-    let upward = StepSettings { gravity: -settings.gravity, ..settings };
+    let mut upward = settings;
+    upward.gravity = -upward.gravity;
     life.reference = toile_reference::Reference::new(&model, &upward, Default::default());
     gpu().run(|encoder| life.solver.record_steps(&gpu().device, encoder, 0..1, 1));
     life.reference.step();

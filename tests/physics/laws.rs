@@ -4,7 +4,7 @@ use glam::Vec3;
 use toile_lab::fixtures::scene;
 use toile_model::{Model, StepSettings};
 use toile_report::experiments::validation::laws::{free_fall_error, momentum_error};
-use toile_scene::{Cloth, Rule, Scene, Settings, VelocityModification};
+use toile_scene::{Cloth, Rule, Scene, VelocityModification};
 use toile_workspace::{advance, gpu, lab};
 
 fn simulate(model: &Model, settings: &StepSettings) -> toile::Cloth {
@@ -54,11 +54,9 @@ fn springs_keep_the_angular_momentum() {
 #[test]
 fn pinned_particles_do_not_move() {
     for (_, rule) in Rule::ALL {
-        let Scene { settings, cloths, .. } = scene("hang", &[("n", "16")]);
-        let settings = Settings {
-            velocity_modification: VelocityModification { sweeps: Some(2), ..VelocityModification::new(rule) },
-            ..settings
-        };
+        let Scene { mut settings, cloths, .. } = scene("hang", &[("n", "16")]);
+        settings.velocity_modification = VelocityModification::new(rule);
+        settings.velocity_modification.sweeps = Some(2);
         let Cloth::Sheet(sheet) = &cloths[0] else { panic!("hang has a sheet") };
         let model = Model::from_sheet(sheet, &settings);
         let mut cloth = simulate(&model, &StepSettings::new(&settings, &model));

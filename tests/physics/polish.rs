@@ -20,8 +20,9 @@ struct Run {
 }
 
 fn run(model: &Model, settings: &Settings, polish: Option<Polish>, shapes: Vec<Shape>, frames: u32) -> Run {
-    let settings = StepSettings { polish, ..StepSettings::new(settings, model) };
-    let colliders = toile::Colliders { maps: None, shapes };
+    let mut settings = StepSettings::new(settings, model);
+    settings.polish = polish;
+    let colliders = toile::Colliders::new(None, shapes);
     let mut cloth = Cloth::new(&gpu().device, model, &settings, colliders).expect("it fits the device");
     let mut elongation_max: f32 = 0.0;
     let mut status = Status::default();
@@ -82,7 +83,8 @@ fn a_polish_keeps_the_momentum() {
     let crumple = |model: &mut Arrays| model.positions.iter_mut().for_each(|position| *position += random.vector(0.01));
     let model = sheet_model(&ball).changed(crumple).expect("particles elsewhere");
     let polish = Some(Polish { target: 0.031, sweeps: 8 });
-    let settings = StepSettings { polish, ..StepSettings::new(&ball.settings, &model) };
+    let mut settings = StepSettings::new(&ball.settings, &model);
+    settings.polish = polish;
     let mut cloth = Cloth::new(&gpu().device, &model, &settings, Default::default()).expect("it fits");
     let status = advance(&mut cloth).expect("it stays finite");
     assert!(status.further_sweeps > 0, "{status:?}");

@@ -26,7 +26,7 @@ fn stretch(name: &str, n: u32, rule: Rule, threshold: f64) -> Stretch {
     let model = sheet_model(&scene);
     let settings = StepSettings::new(&scene.settings, &model);
     assert!(settings.steps_per_frame <= 16 && settings.sweeps <= 4, "{name}");
-    let colliders = toile::Colliders { maps: None, shapes: shapes(&scene) };
+    let colliders = toile::Colliders::new(None, shapes(&scene));
     let mut cloth = Cloth::new(&gpu().device, &model, &settings, colliders).expect("it fits the device");
     let mut stretch = Stretch { over_run: 0.0, over_long: 0.0 };
     for _ in 0..FRAMES {

@@ -91,23 +91,21 @@ pub fn write(
     let mut meshes = Vec::new();
     let mut drawn = Vec::new();
     for Shown { name, mesh } in bodies {
-        meshes.push(NamedMesh { name, mesh, colour: Material::SKIN.linear_outside() });
+        meshes.push(NamedMesh::new(name, mesh, Material::SKIN.linear_outside()));
         drawn.push(Drawn::body(mesh));
     }
     for (index, (Shown { name, mesh }, thickness)) in cloths.iter().enumerate() {
-        meshes.push(NamedMesh { name, mesh, colour: Material::cloth(index).linear_outside() });
+        meshes.push(NamedMesh::new(name, mesh, Material::cloth(index).linear_outside()));
         drawn.push(Drawn::cloth(mesh, index, *thickness));
     }
     write_glb(&folder.join("dressed.glb"), &meshes)?;
     write_obj(&folder.join("garment.obj"), &joined(cloths))?;
     let progress = Progress::new("pictures", hides_progress);
-    let mut pictures = Vec::new();
-    for (name, view) in VIEWS {
-        interrupt::check()?;
-        progress.say(format!("drawing {name}"));
-        let picture = picture::render(&drawn, view, PICTURE_HEIGHT)?;
-        picture::save_png(&folder.join(format!("{name}.png")), &picture)?;
-        pictures.push(picture);
+    interrupt::check()?;
+    progress.say("drawing".to_owned());
+    let pictures = picture::render(&drawn, None, &VIEWS.map(|(_, view)| view), PICTURE_HEIGHT)?;
+    for ((name, _), picture) in VIEWS.iter().zip(&pictures) {
+        picture::save_png(&folder.join(format!("{name}.png")), picture)?;
     }
     picture::save_png(&folder.join("all_views.png"), &picture::strip(&pictures))?;
     progress.finish("drawn".to_owned());

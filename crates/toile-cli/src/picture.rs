@@ -20,7 +20,8 @@ pub use file::{save_gif, save_png, stack, strip};
 use camera::Camera;
 use glam::Vec3;
 use image::RgbImage;
-use light::Studio;
+use light::{Shadows, Studio};
+use shade::Shot;
 use soup::Soup;
 use std::path::PathBuf;
 use std::sync::Mutex;
@@ -139,9 +140,11 @@ pub enum PictureError {
 /// Rows of pixels that one thread draws at a time; bounds the memory of the samples.
 const BAND_ROWS: usize = 32;
 
-/// A picture of all meshes, `height` pixels high and 0.5 to 2 times as wide.
+/// Pictures of all meshes from several sides, `height` pixels high and 0.5 to 2 times as wide.
 ///
-/// The scale depends on the scene and the height only, so the views of one scene can stand side by side.
+/// They show what stands in a box [m], given by its smallest and largest corner, whose floor is theirs: pictures of boxes of one size have
+/// the same scale and size from all sides. Without a box the scale depends on the scene and the height only, so the views can stand side
+/// by side. Views of one call share the shadows that the surroundings throw.
 ///
 /// # Errors
 /// [`PictureError::NonFinite`] when a vertex has a non-finite position or normal; [`PictureError::Empty`] when there is
@@ -149,35 +152,27 @@ const BAND_ROWS: usize = 32;
 ///
 /// # Panics
 /// When `height` is 0, a mesh has not one normal per vertex, or a triangle names a vertex that does not exist.
-pub fn render(drawn: &[Drawn], view: View, height: u32) -> Result<RgbImage, PictureError> {
-    render_framed(drawn, None, view, height)
-}
-
-/// A picture of what stands in a box [m], given by its smallest and largest corner, whose floor is that of the picture: pictures of
-/// boxes of one size have the same scale and size from all sides.
-///
-/// # Errors
-/// As [`render`].
-///
-/// # Panics
-/// As [`render`].
-pub fn render_in(drawn: &[Drawn], stage: [Vec3; 2], view: View, height: u32) -> Result<RgbImage, PictureError> {
-    render_framed(drawn, Some(stage), view, height)
-}
-
-fn render_framed(drawn: &[Drawn], stage: Option<[Vec3; 2]>, view: View, height: u32) -> Result<RgbImage, PictureError> {
+pub fn render(
+    drawn: &[Drawn],
+    stage: Option<[Vec3; 2]>,
+    views: &[View],
+    height: u32,
+) -> Result<Vec<RgbImage>, PictureError> {
     assert!(height > 0, "a picture has at least one row");
     let soup = Soup::new(drawn, stage)?;
-    let camera = Camera::new(&soup, view, height as usize);
-    let studio = Studio::new(&soup, &camera);
-    let corners: Vec<_> = soup.positions.iter().map(|p| camera.samples.project(*p)).collect();
-
-    let mut image = RgbImage::new(camera.width as u32, height);
-    let bands = image.as_mut().chunks_mut(3 * camera.width * BAND_ROWS).enumerate();
-    in_parallel(bands, |(band, pixels)| {
-        shade::band(&soup, &camera, &studio, &corners, band * BAND_ROWS, pixels);
-    });
-    Ok(image)
+    let cameras: Vec<Camera> = views.iter().map(|view| Camera::new(&soup, *view, height as usize)).collect();
+    let shadows = Shadows::new(&soup, &cameras);
+    let picture = |(view, camera): (usize, &Camera)| {
+        let studio = Studio::new(&soup, camera, &shadows, view);
+        let corners: Vec<_> = soup.positions.iter().map(|p| camera.samples.project(*p)).collect();
+        let mut image = RgbImage::new(camera.width as u32, height);
+        let shot = Shot { soup: &soup, camera, studio: &studio, corners: &corners };
+        let triangles = shot.triangles_of_bands(BAND_ROWS);
+        let bands = image.as_mut().chunks_mut(3 * camera.width * BAND_ROWS).zip(&triangles).enumerate();
+        in_parallel(bands, |(band, (pixels, triangles))| shot.draw(triangles, band * BAND_ROWS, pixels));
+        image
+    };
+    Ok(cameras.iter().enumerate().map(picture).collect())
 }
 
 /// Does every job once, on all cores.

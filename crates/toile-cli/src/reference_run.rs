@@ -62,7 +62,7 @@ impl ReferenceRun {
         let drawn = self.layers.iter().map(|(mesh, open)| Surface { mesh, thickness, velocities: None, open: *open });
         let surfaces: Vec<_> = drawn.collect();
         let maps = (!surfaces.is_empty()).then(|| BodyMaps::around(self.maps, &surfaces, self.texel));
-        let colliders = Colliders { maps, shapes: self.shapes.clone() };
+        let colliders = Colliders::new(maps, self.shapes.clone());
         self.worn.push(match &piece.open {
             None => Worn {
                 reference: Reference::new(&piece.model, &piece.step, colliders),
@@ -152,12 +152,8 @@ impl ReferenceRun {
         let body = Solid::of(bodies.chain(&shapes));
         let dressed = self.pieces.iter().zip(&self.worn);
         let verdict = |(piece, Worn { reference, dressing, motion, .. }): (&Piece, &Worn)| {
-            let judged = Judged {
-                model: &piece.model,
-                positions: reference.positions(),
-                velocities: motion.velocities(),
-                is_at_rest: dressing.as_ref()?.is_at_rest(),
-            };
+            let judged =
+                Judged::new(&piece.model, reference.positions(), motion.velocities(), dressing.as_ref()?.is_at_rest());
             Some(Verdict::of(&judged, &body))
         };
         dressed.filter_map(verdict).collect()

@@ -11,18 +11,23 @@ use crate::output::{self, Shown};
 use crate::stdout::print;
 use crate::worn::{self, Worn};
 use anyhow::{Result, bail};
-use toile::files::SceneFile;
 use toile::model::FitOptions;
 use toile::scene::{Cloth, Mesh, Scene};
 
 /// Simulates a scene: garments are dressed one after another, sheets run for a number of frames. Writes the results.
-pub fn simulate(file: SceneFile, options: &FitOptions, running: &Running) -> Result<Outcome> {
+pub fn simulate(
+    scene: &Scene,
+    frames: u32,
+    warnings: &[String],
+    options: &FitOptions,
+    running: &Running,
+) -> Result<Outcome> {
     output::check(&running.out, "metrics.json")?;
-    check_bodies(&file.scene, running.place.backend)?;
+    check_bodies(scene, running.place.backend)?;
     if !running.quiet {
-        fit::tell_of_files(&file.warnings);
+        fit::tell_of_files(warnings);
     }
-    let fit = fit::look(&file.scene, options)?;
+    let fit = fit::look(scene, options)?;
     let scene = &fit.scene;
     if !running.quiet {
         fit::tell(&fit);
@@ -31,7 +36,7 @@ pub fn simulate(file: SceneFile, options: &FitOptions, running: &Running) -> Res
         Backend::Gpu => Computer::Gpu(adapter::open(&running.place)?),
         Backend::Reference => Computer::Reference,
     };
-    let all = worn::run(&fit, file.frames, &computer, running)?;
+    let all = worn::run(&fit, frames, &computer, running)?;
     let end = end(&all);
     let mut surfaces = Surfaces::new(&scene.bodies, end);
     let mut measured = Vec::new();

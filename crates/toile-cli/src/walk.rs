@@ -212,8 +212,10 @@ fn simulate(walk: &Walk, gpu: &Gpu, simulation: &mut Simulation, saved: &Saved, 
             }
             cloths.push(mesh);
         }
+        let pictures = Instant::now();
         let views = draw(walk, &body, &cloths, stage.at(time))?;
         picture::save_png(&picture_path(&running.out, frame), &picture::strip(&views))?;
+        row.picture_ms = 1e3 * pictures.elapsed().as_secs_f64();
         row.output_ms = 1e3 * output.elapsed().as_secs_f64();
         saved.write(frame, &simulation.save(&gpu.queue)?, &points, Some(&row))?;
         progress.reach(frame);
@@ -252,8 +254,7 @@ fn draw(walk: &Walk, body: &Mesh, cloths: &[Mesh], stage: [Vec3; 2]) -> Result<V
     let worn = cloths.iter().zip(walk.fit.scene.fabrics()).enumerate();
     let mut drawn = vec![Drawn::body(body)];
     drawn.extend(worn.map(|(i, (mesh, fabric))| Drawn::cloth(mesh, i, fabric.thickness)));
-    let views = walk.views.iter().map(|view| picture::render_in(&drawn, stage, *view, walk.height));
-    Ok(views.collect::<Result<Vec<_>, _>>()?)
+    Ok(picture::render(&drawn, Some(stage), &walk.views, walk.height)?)
 }
 
 fn picture_path(folder: &Path, frame: u32) -> std::path::PathBuf {
@@ -292,11 +293,7 @@ fn finish(walk: &Walk, walkers: &[Walker], saved: &Saved, running: &Running) -> 
     let faces: Vec<MovingFaces<'_>> = walkers
         .iter()
         .enumerate()
-        .map(|(i, walker)| MovingFaces {
-            name: &walker.name,
-            triangles: &walker.triangles,
-            colour: Material::cloth(i).linear_outside(),
-        })
+        .map(|(i, walker)| MovingFaces::new(&walker.name, &walker.triangles, Material::cloth(i).linear_outside()))
         .collect();
     let progress = Progress::new("files", running.hides_progress());
     let points = |mesh: usize, frame: usize| -> Result<Vec<Vec3>> {

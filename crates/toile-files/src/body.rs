@@ -35,6 +35,7 @@ const ENDINGS: &str = ".obj, .ply, .gltf, .glb, .vrm";
 
 /// How a body file is read.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct BodyOptions {
     /// Length of the file's unit [m], positive: 0.01 for centimetres.
     pub metres_per_unit: f64,

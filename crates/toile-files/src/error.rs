@@ -7,6 +7,7 @@ use std::path::PathBuf;
 /// Why a file cannot be used, as one sentence with the file and the place in it.
 #[derive(Debug, thiserror::Error)]
 #[error("{}{place}: {fault}", path.display())]
+#[non_exhaustive]
 pub struct FileError {
     /// The file, as the caller named it.
     pub path: PathBuf,

@@ -152,7 +152,7 @@ fn read(bytes: &[u8], name: &Path) -> Result<GarmentFile, Found> {
     }
     let stem = name.file_stem().unwrap_or_default().to_string_lossy();
     let name = stem.strip_suffix("_specification").unwrap_or(&stem).to_string();
-    Ok(GarmentFile { garment: Garment { name, panels, seams, fabric: None }, warnings })
+    Ok(GarmentFile { garment: Garment::new(name, panels, seams), warnings })
 }
 
 fn convert_panel(name: &str, json: &PanelJson, conventions: &Conventions) -> Result<Panel, Found> {
@@ -183,10 +183,12 @@ fn convert_panel(name: &str, json: &PanelJson, conventions: &Conventions) -> Res
         let [a, b] = [point(json.vertices[*a]), point(json.vertices[*b])];
         let curve = convert_curve(edge, a, b, conventions)
             .map_err(|fault| Found::at(Place::Edge(name.into(), index), fault))?;
-        edges.push(Edge { start: a, curve, label: edge.label.clone() });
+        let mut converted = Edge::new(a, curve);
+        converted.label.clone_from(&edge.label);
+        edges.push(converted);
     }
     slit::open(&mut edges);
-    let panel = Panel { name: name.into(), edges, placement };
+    let panel = Panel::new(name, edges, placement);
     check_size(&panel, units_in_meter)?;
     let polylines: Vec<_> = (0..panel.edges.len()).map(|edge| panel.polyline(edge, CROSSING_TOLERANCE)).collect();
     match crossing::first_crossing(&polylines) {

@@ -19,8 +19,7 @@ use glam::DVec2;
 use std::ops::RangeInclusive;
 use std::path::Path;
 use toile_scene::{
-    Body, Cloth, Fabric, Friction, Garment, MapKind, Pin, Polish, Rule, Scene, Settings, Sheet, VelocityModification,
-    Wind,
+    Body, Cloth, Fabric, Friction, MapKind, Pin, Polish, Rule, Scene, Settings, Sheet, VelocityModification, Wind,
 };
 
 /// Frames of a scene that does not say: two seconds at 60 per second.
@@ -31,6 +30,7 @@ const PARTS: RangeInclusive<f64> = 0.0..=1.0;
 
 /// A scene as it was read.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct SceneFile {
     /// The scene.
     pub scene: Scene,
@@ -66,14 +66,18 @@ fn convert(toml: SceneToml, stem: &str, folder: &Path) -> Result<SceneFile, Prob
     };
     for (index, sheet) in toml.sheet.iter().enumerate() {
         let fabric = fabric(&sheet.fabric, format!("sheet.{index}.fabric"))?;
-        cloths.push(Cloth::Sheet(Sheet { fabric, ..convert_sheet(index, sheet, toml.n)? }));
+        let mut sheet = convert_sheet(index, sheet, toml.n)?;
+        sheet.fabric = fabric;
+        cloths.push(Cloth::Sheet(sheet));
     }
     let mut warnings = Vec::new();
-    for (index, garment) in toml.garment.iter().enumerate() {
-        let fabric = fabric(&garment.fabric, format!("garment.{index}.fabric"))?;
-        let read = read_garment(&folder.join(&garment.file))?;
-        warnings.extend(read.warnings.iter().map(|warning| format!("{}: {warning}", garment.file)));
-        cloths.push(Cloth::Garment(Garment { fabric, ..read.garment }));
+    for (index, toml) in toml.garment.iter().enumerate() {
+        let fabric = fabric(&toml.fabric, format!("garment.{index}.fabric"))?;
+        let read = read_garment(&folder.join(&toml.file))?;
+        warnings.extend(read.warnings.iter().map(|warning| format!("{}: {warning}", toml.file)));
+        let mut garment = read.garment;
+        garment.fabric = fabric;
+        cloths.push(Cloth::Garment(garment));
     }
     if cloths.is_empty() {
         let message = "the scene has no cloth: give a [[sheet]] or a [[garment]]";
@@ -91,7 +95,10 @@ fn convert(toml: SceneToml, stem: &str, folder: &Path) -> Result<SceneFile, Prob
         return Err(wrong("frames", "it must be at least 1").into());
     }
     let name = toml.name.unwrap_or_else(|| stem.into());
-    Ok(SceneFile { scene: Scene { name, cloths, bodies, settings }, frames, warnings })
+    let mut scene = Scene::new(name, settings);
+    scene.cloths = cloths;
+    scene.bodies = bodies;
+    Ok(SceneFile { scene, frames, warnings })
 }
 
 fn settings(toml: &SceneToml, folder: &Path) -> Result<Settings, Problem> {
@@ -99,8 +106,8 @@ fn settings(toml: &SceneToml, folder: &Path) -> Result<Settings, Problem> {
         Some(fabric) => fabric::convert(fabric.clone(), "fabric", folder)?,
         None => Fabric::preset("cotton").expect("cotton is a preset"),
     };
-    let default = Settings::new(fabric);
-    let rule = toml.rule.map_or(default.velocity_modification.rule, |rule| match rule {
+    let mut settings = Settings::new(fabric);
+    let rule = toml.rule.map_or(settings.velocity_modification.rule, |rule| match rule {
         RuleToml::None => Rule::None,
         RuleToml::Zero => Rule::Zero,
         RuleToml::Average => Rule::Average,
@@ -112,36 +119,32 @@ fn settings(toml: &SceneToml, folder: &Path) -> Result<Settings, Problem> {
     let sweeps = toml.sweeps.map(|sweeps| within("sweeps", sweeps, VelocityModification::SWEEPS, "")).transpose()?;
     let polish = toml.polish.map(|polish| convert_polish(polish, rule)).transpose()?;
     let friction = match toml.friction {
-        None => default.friction,
+        None => settings.friction,
         Some(FrictionToml::Coulomb) => Friction::Coulomb,
         Some(FrictionToml::Papers(papers)) => Friction::Papers {
             velocity_kept: within("friction.papers.velocity_kept", papers.velocity_kept, PARTS, "")?,
             force_removed: within("friction.papers.force_removed", papers.force_removed, PARTS, "")?,
         },
     };
-    Ok(Settings {
-        velocity_modification: VelocityModification { rule, sweeps, polish },
-        friction,
-        reflection: within("reflection", toml.reflection.unwrap_or(default.reflection), PARTS, "")?,
-        gravity: vector("gravity", toml.gravity.unwrap_or(default.gravity.to_array()))?,
-        wind: toml.wind.as_ref().map(convert_wind).transpose()?,
-        spacing: within("spacing", toml.spacing.unwrap_or(default.spacing), Settings::SPACINGS, "m")?,
-        maps: match toml.maps {
-            None => default.maps,
-            Some(MapsToml::Layers) => MapKind::Layers,
-            Some(MapsToml::Sides) => MapKind::Sides,
-        },
-        texel: within("texel", toml.texel.unwrap_or(default.texel), Settings::TEXELS, "m")?,
-        frame_rate: within(
-            "frame_rate",
-            toml.frame_rate.unwrap_or(default.frame_rate),
-            Settings::FRAME_RATES,
-            "frames per second",
-        )?,
-        safety: within("safety", toml.safety.unwrap_or(default.safety), Settings::SAFETIES, "")?,
-        swept: toml.swept.unwrap_or(default.swept),
-        fabric: default.fabric,
-    })
+    settings.velocity_modification.rule = rule;
+    settings.velocity_modification.sweeps = sweeps;
+    settings.velocity_modification.polish = polish;
+    settings.friction = friction;
+    settings.reflection = within("reflection", toml.reflection.unwrap_or(settings.reflection), PARTS, "")?;
+    settings.gravity = vector("gravity", toml.gravity.unwrap_or(settings.gravity.to_array()))?;
+    settings.wind = toml.wind.as_ref().map(convert_wind).transpose()?;
+    settings.spacing = within("spacing", toml.spacing.unwrap_or(settings.spacing), Settings::SPACINGS, "m")?;
+    settings.maps = match toml.maps {
+        None => settings.maps,
+        Some(MapsToml::Layers) => MapKind::Layers,
+        Some(MapsToml::Sides) => MapKind::Sides,
+    };
+    settings.texel = within("texel", toml.texel.unwrap_or(settings.texel), Settings::TEXELS, "m")?;
+    let frame_rate = toml.frame_rate.unwrap_or(settings.frame_rate);
+    settings.frame_rate = within("frame_rate", frame_rate, Settings::FRAME_RATES, "frames per second")?;
+    settings.safety = within("safety", toml.safety.unwrap_or(settings.safety), Settings::SAFETIES, "")?;
+    settings.swept = toml.swept.unwrap_or(settings.swept);
+    Ok(settings)
 }
 
 fn convert_polish(toml: PolishToml, rule: Rule) -> Result<Polish, Found> {
@@ -210,15 +213,10 @@ fn convert_sheet(index: usize, toml: &SheetToml, n: Option<u32>) -> Result<Sheet
         let message = format!("[{column}, {row}] is outside of the sheet of {columns} × {rows}");
         Err(wrong(&key(&format!("pins.{number}")), message))
     };
-    Ok(Sheet {
-        name: toml.name.clone().unwrap_or_else(|| "sheet".into()),
-        columns,
-        rows,
-        size,
-        corner: vector(&key("corner"), toml.corner)?,
-        right,
-        down,
-        pins: toml.pins.iter().enumerate().map(pin).collect::<Result<_, _>>()?,
-        fabric: None,
-    })
+    let mut sheet = Sheet::new(toml.name.as_deref().unwrap_or("sheet"), [columns, rows], size);
+    sheet.corner = vector(&key("corner"), toml.corner)?;
+    sheet.right = right;
+    sheet.down = down;
+    sheet.pins = toml.pins.iter().enumerate().map(pin).collect::<Result<_, _>>()?;
+    Ok(sheet)
 }

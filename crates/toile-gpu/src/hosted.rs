@@ -13,6 +13,7 @@ const ATTRIBUTE_BYTES: u64 = 12;
 
 /// Where the host has three `f32` of each vertex.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct HostAttribute {
     /// The buffer, of usage `STORAGE`; several attributes may lie in one.
     pub buffer: wgpu::Buffer,
@@ -41,6 +42,7 @@ pub enum HostMotion {
 /// The vertices of a body that the host skins, in metres, y up. They are read when commands run, so that a host skins into the same buffers, earlier in the
 /// same encoder.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct HostVertices {
     /// Positions [m].
     pub positions: HostAttribute,
@@ -48,6 +50,13 @@ pub struct HostVertices {
     pub normals: HostAttribute,
     /// How they move. Without it a body stands still from one interval of the maps to the next, up to a sixtieth of a second behind.
     pub motion: Option<HostMotion>,
+}
+
+impl HostVertices {
+    /// Vertices whose motion is not told.
+    pub fn new(positions: HostAttribute, normals: HostAttribute) -> Self {
+        Self { positions, normals, motion: None }
+    }
 }
 
 /// What takes the vertices out of the host's buffers.

@@ -23,6 +23,7 @@ const LAYERS_MIN: u64 = 4096;
 
 /// What maps must hold.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct MapSpace {
     /// How they see bodies.
     pub kind: MapKind,
@@ -35,6 +36,11 @@ pub struct MapSpace {
 }
 
 impl MapSpace {
+    /// Maps of bodies at rest, whose surfaces have this area together [m²].
+    pub fn new(kind: MapKind, map_box: MapBox, area: f64) -> Self {
+        Self { kind, map_box, moving: false, area }
+    }
+
     /// Most layers of the layered maps.
     pub(crate) fn crossing_capacity(&self) -> u64 {
         let texel = f64::from(self.map_box.texel);

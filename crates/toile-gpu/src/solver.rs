@@ -8,13 +8,13 @@ use crate::step_params::{Counts, step_params};
 #[cfg(feature = "native-wait")]
 use crate::timing::{PassTime, Timer};
 use crate::{BodyMaps, GpuError, Kernels, Maps, Pass, Plan, Program};
-use glam::{DMat4, Vec3};
+use glam::DMat4;
 #[cfg(feature = "native-wait")]
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toile_kernels::{Kernel, Role, structs};
 use toile_model::{Merge, Model, PinTarget, Status, StepSettings};
-use toile_scene::{Friction, Shape};
+use toile_scene::Shape;
 use wgpu::util::DeviceExt;
 
 /// Bytes from one entry of the dispatches to the next: three words for the dispatch, and one that fills the vec4.
@@ -22,11 +22,19 @@ const DISPATCH_STRIDE: u64 = 16;
 
 /// What a cloth collides with.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct Colliders<'a> {
     /// Mesh bodies and inner garments, as maps.
     pub maps: Option<&'a BodyMaps>,
     /// Analytic shapes; their order does not matter.
     pub shapes: Vec<Shape>,
+}
+
+impl<'a> Colliders<'a> {
+    /// Maps, shapes, or both.
+    pub fn new(maps: Option<&'a BodyMaps>, shapes: Vec<Shape>) -> Self {
+        Self { maps, shapes }
+    }
 }
 
 /// One cloth on a device.
@@ -359,17 +367,15 @@ impl Solver {
         encoder: &mut wgpu::CommandEncoder,
         settings: &StepSettings,
     ) {
-        let passes = |settings: &StepSettings| StepSettings {
-            gravity: Vec3::ZERO,
-            wind: None,
-            damping: 0.0,
-            friction: 0.0,
-            reflection: 0.0,
-            law: Friction::Coulomb,
-            ..settings.clone()
-        };
+        let mut same = self.settings.clone();
+        same.gravity = settings.gravity;
+        same.wind = settings.wind;
+        same.damping = settings.damping;
+        same.friction = settings.friction;
+        same.reflection = settings.reflection;
+        same.law = settings.law;
         assert!(
-            passes(settings) == passes(&self.settings),
+            same == *settings,
             "gravity, wind, damping, friction and reflection change while a cloth runs, nothing else of its step"
         );
         assert!(

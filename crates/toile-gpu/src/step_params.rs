@@ -30,7 +30,9 @@ pub fn step_params(counts: Counts, settings: &StepSettings, after_maps: bool) ->
         Friction::Coulomb => (0, 0.0, 0.0),
         Friction::Papers { velocity_kept, force_removed } => (1, velocity_kept as f32, force_removed as f32),
     };
-    let still = Wind { drag: 0.0, lift: 0.0, ..Wind::new(DVec3::ZERO) };
+    let mut still = Wind::new(DVec3::ZERO);
+    still.drag = 0.0;
+    still.lift = 0.0;
     let wind = settings.wind.unwrap_or(still);
     StepParams {
         gravity: settings.gravity,

@@ -2,6 +2,7 @@
 
 /// One row of the buffer table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct BufferRow {
     /// Name of the global variable in the kernels.
     pub name: &'static str,

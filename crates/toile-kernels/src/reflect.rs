@@ -5,6 +5,7 @@ use naga::{AddressSpace, Expression, ImageClass, Literal, ScalarKind, StorageAcc
 
 /// What a kernel's WGSL says of itself.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Interface {
     /// Name of the entry point.
     pub entry: String,
@@ -18,6 +19,7 @@ pub struct Interface {
 
 /// One resource of a kernel.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Binding {
     /// Name of the global variable: the same name is the same resource in every kernel.
     pub name: String,
@@ -79,6 +81,7 @@ pub enum Resource {
 
 /// Layout of a struct, as naga computes it.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct StructLayout {
     /// Name in the WGSL.
     pub name: String,
@@ -90,6 +93,7 @@ pub struct StructLayout {
 
 /// A field of a struct.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct StructField {
     /// Name in the WGSL.
     pub name: String,

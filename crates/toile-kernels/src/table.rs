@@ -129,6 +129,7 @@ pub enum Need {
 
 /// One row of the kernel table.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Row {
     /// The kernel.
     pub kernel: Kernel,

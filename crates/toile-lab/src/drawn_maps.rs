@@ -45,7 +45,7 @@ impl DrawnMaps {
         let surfaces: Vec<_> = bodies.iter().map(|(mesh, thickness)| (surface(mesh), *thickness)).collect();
         let drawn: Vec<_> = surfaces.iter().map(|(surface, thickness)| (surface, *thickness)).collect();
         let area = bodies.iter().map(|(mesh, _)| mesh.area()).sum();
-        Self::draw_surfaces(gpu, &drawn, &MapSpace { kind, map_box, moving: false, area })
+        Self::draw_surfaces(gpu, &drawn, &MapSpace::new(kind, map_box, area))
     }
 
     /// Draws surfaces of the device.

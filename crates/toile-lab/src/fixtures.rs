@@ -54,20 +54,24 @@ pub fn garment(name: &str) -> Garment {
 
 /// The built-in body in the pose that it is dressed in.
 pub fn body() -> Mesh {
-    let options = BodyOptions { clip: Some("apose_to_walk".to_owned()), ..Default::default() };
+    let mut options = BodyOptions::default();
+    options.clip = Some("apose_to_walk".to_owned());
     read_body(&fixture("bodies/walking_woman.glb"), &options).unwrap_or_else(|error| panic!("{error}")).mesh
 }
 
 /// The built-in body with one of its clips.
 pub fn woman(clip: &str) -> MovingMesh {
-    let options = BodyOptions { clip: Some(clip.to_owned()), ..Default::default() };
+    let mut options = BodyOptions::default();
+    options.clip = Some(clip.to_owned());
     read_moving_body(&fixture("bodies/walking_woman.glb"), &options).unwrap_or_else(|error| panic!("{error}")).body
 }
 
 /// Settings of a garment in cotton at a spacing [m], as the program dresses it.
 pub fn settings(spacing: f64) -> Settings {
     let default = Settings::new(Fabric::preset("cotton").expect("cotton is a preset"));
-    Settings { spacing, ..default }
+    let mut settings = default;
+    settings.spacing = spacing;
+    settings
 }
 
 /// Settings of the sheets of `fixtures/scenes`.

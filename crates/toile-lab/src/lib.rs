@@ -19,6 +19,7 @@ pub mod scenes;
 mod settle;
 pub mod shapes;
 mod walked;
+mod with;
 
 pub use distance::Distance;
 pub use drawn_maps::{DrawnMaps, read_maps};
@@ -30,3 +31,4 @@ pub use random::Random;
 pub use run::{Run, StepCost};
 pub use settle::settled;
 pub use walked::{Worst, middles, turned};
+pub use with::with;

@@ -10,18 +10,18 @@ const BODY: &[u8] = include_bytes!("../../../fixtures/bodies/walking_woman.glb")
 /// The fabric of the sheets: soft springs, so that it is the limits that hold the stretch, and little damping, so that a low
 /// elongation is not the work of the damping.
 pub fn fabric() -> Fabric {
-    Fabric {
-        name: "sheet of the measurements".to_owned(),
-        areal_density: 0.2,
-        structural_stiffness: 20.0,
-        shear_stiffness: 10.0,
-        bend_stiffness: 2.0,
-        bending_rigidity: 0.0,
-        damping: 0.1,
-        thickness: 0.005,
-        friction: 0.3,
-        threshold: Threshold::even(0.05),
-    }
+    let mut fabric = Fabric::preset("cotton").expect("a preset");
+    fabric.name = "sheet of the measurements".to_owned();
+    fabric.areal_density = 0.2;
+    fabric.structural_stiffness = 20.0;
+    fabric.shear_stiffness = 10.0;
+    fabric.bend_stiffness = 2.0;
+    fabric.bending_rigidity = 0.0;
+    fabric.damping = 0.1;
+    fabric.thickness = 0.005;
+    fabric.friction = 0.3;
+    fabric.threshold = Threshold::even(0.05);
+    fabric
 }
 
 /// A sheet of 1 m × 1 m of n × n particles that starts flat and level, held at two corners of its edge z = 0.
@@ -32,17 +32,11 @@ pub fn hanging_sheet(n: u32) -> (Sheet, Settings) {
 
 /// A square sheet with its columns along x.
 pub fn square(n: u32, side: f64, corner: DVec3, down: DVec3, pins: Vec<Pin>) -> Sheet {
-    Sheet {
-        name: "sheet".to_owned(),
-        columns: n,
-        rows: n,
-        size: DVec2::splat(side),
-        corner,
-        right: DVec3::X,
-        down,
-        pins,
-        fabric: None,
-    }
+    let mut sheet = Sheet::new("sheet", [n, n], DVec2::splat(side));
+    sheet.corner = corner;
+    sheet.down = down;
+    sheet.pins = pins;
+    sheet
 }
 
 /// Radius of [`ball`] [m].
@@ -58,6 +52,7 @@ pub fn ball() -> Shape {
 /// # Errors
 /// [`LabError::File`] when it cannot be read.
 pub fn body() -> Result<Mesh, LabError> {
-    let options = BodyOptions { clip: Some("apose_to_walk".to_owned()), ..Default::default() };
+    let mut options = BodyOptions::default();
+    options.clip = Some("apose_to_walk".to_owned());
     Ok(parse_body(BODY, "walking_woman.glb", &options)?.mesh)
 }

@@ -27,6 +27,7 @@ use toile_scene::{Body, Cloth, Garment, Mesh, Motion, MovingMesh, Scene};
 
 /// What the caller knows of a body that is else looked for.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct FitOptions {
     /// Which axis of the body is up; `None` is looked for.
     pub up: Option<Axis>,

@@ -10,6 +10,7 @@ use toile_scene::{Polish, Rule, Shape};
 
 /// What the cloth collides with. The default is nothing: then no contact kernel runs.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct Colliders {
     /// Maps of a body mesh; the papers' have the thickness of the cloth in them.
     pub maps: Option<BodyMaps>,
@@ -18,6 +19,11 @@ pub struct Colliders {
 }
 
 impl Colliders {
+    /// Maps, shapes, or both.
+    pub fn new(maps: Option<BodyMaps>, shapes: Vec<Shape>) -> Self {
+        Self { maps, shapes }
+    }
+
     /// Whether there is any body.
     fn any(&self) -> bool {
         self.maps.is_some() || !self.shapes.is_empty()
@@ -30,32 +36,15 @@ impl Colliders {
 /// use glam::vec3;
 /// use toile_model::{Arrays, Model, StepSettings};
 /// use toile_reference::{Colliders, Reference};
-/// use toile_scene::{Friction, Rule};
+/// use toile_scene::{Fabric, Rule, Settings};
 ///
 /// let model = Model::new(Arrays::of_particles(vec![vec3(0.0, 1.0, 0.0)], vec![0.001])).expect("a particle is a model");
-/// let settings = StepSettings {
-///     dt: 0.01,
-///     steps_per_frame: 10,
-///     gravity: vec3(0.0, -10.0, 0.0),
-///     wind: None,
-///     damping: 0.0,
-///     thickness: 0.001,
-///     push_speed: 0.2,
-///     pressing: 200.0,
-///     contact_margin: 1e-4,
-///     reflection: 0.0,
-///     law: Friction::Coulomb,
-///     friction: 0.3,
-///     hold_rate: 10.0,
-///     hold_speed: 0.5,
-///     rule: Rule::Predictive,
-///     sweeps: 1,
-///     limit_passes: 1,
-///     coarse_passes: 1,
-///     guard_passes: 2,
-///     polish: None,
-///     swept: true,
-/// };
+/// let mut settings = StepSettings::new(&Settings::new(Fabric::preset("cotton").expect("a preset")), &model);
+/// settings.dt = 0.01;
+/// settings.steps_per_frame = 10;
+/// settings.gravity = vec3(0.0, -10.0, 0.0);
+/// settings.damping = 0.0;
+/// settings.rule = Rule::Predictive;
 /// let mut reference = Reference::new(&model, &settings, Colliders::default());
 /// reference.frame();
 /// assert_eq!(reference.status().step, 10);

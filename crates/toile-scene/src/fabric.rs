@@ -12,6 +12,7 @@ const STIFFNESS_MAX: f64 = 1e6;
 /// membrane stiffness of the cloth, whatever the spacing. Springs only carry what the limits do not: elongation is held by
 /// the velocity modification, so soft springs do not mean stretchy cloth.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Fabric {
     /// Name shown in metrics.
     pub name: String,

@@ -5,6 +5,7 @@ use glam::{DQuat, DVec2, DVec3};
 
 /// A garment as flat cutting patterns with seams.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Garment {
     /// Name shown in metrics and meshes.
     pub name: String,
@@ -16,11 +17,19 @@ pub struct Garment {
     pub fabric: Option<Fabric>,
 }
 
+impl Garment {
+    /// A garment of the fabric of the settings.
+    pub fn new(name: impl Into<String>, panels: Vec<Panel>, seams: Vec<Seam>) -> Self {
+        Self { name: name.into(), panels, seams, fabric: None }
+    }
+}
+
 /// One flat piece of cloth. x is the weft and y the warp direction.
 ///
 /// Its outline is one closed loop. The winding gives the outside of the cloth: the outside is the local +z direction where
 /// the loop is counter-clockwise, local −z where it is clockwise.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Panel {
     /// Name used in errors and seams.
     pub name: String,
@@ -30,8 +39,16 @@ pub struct Panel {
     pub placement: Placement,
 }
 
+impl Panel {
+    /// A panel with this outline.
+    pub fn new(name: impl Into<String>, edges: Vec<Edge>, placement: Placement) -> Self {
+        Self { name: name.into(), edges, placement }
+    }
+}
+
 /// One edge of a panel's outline.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Edge {
     /// Where it starts [m], flat. It ends at the start of the next edge.
     pub start: DVec2,
@@ -39,6 +56,13 @@ pub struct Edge {
     pub curve: Curve,
     /// Name of an edge that is held at its height while the garment is sewn: waistbands, collars, armholes.
     pub label: Option<String>,
+}
+
+impl Edge {
+    /// An edge that starts there [m] and is free while the garment is sewn.
+    pub fn new(start: DVec2, curve: Curve) -> Self {
+        Self { start, curve, label: None }
+    }
 }
 
 /// Shape of an edge between its ends. All points are flat positions [m].
@@ -94,9 +118,17 @@ pub struct EdgeRef {
 
 /// Two edges that are sewn together. They may differ in length: the longer one is gathered.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Seam {
     /// The two edges.
     pub sides: [EdgeRef; 2],
     /// Whether the outside of one panel meets the inside of the other.
     pub right_wrong: bool,
+}
+
+impl Seam {
+    /// A seam between two edges, right side to right side.
+    pub fn new(sides: [EdgeRef; 2]) -> Self {
+        Self { sides, right_wrong: false }
+    }
 }

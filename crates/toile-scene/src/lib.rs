@@ -41,6 +41,7 @@ pub use threshold::Threshold;
 
 /// Everything a run needs: the cloth, what it collides with, and how it is simulated.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Scene {
     /// Name shown in pictures and metrics.
     pub name: String,
@@ -53,6 +54,11 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// A scene without any cloth or body.
+    pub fn new(name: impl Into<String>, settings: Settings) -> Self {
+        Self { name: name.into(), cloths: Vec::new(), bodies: Vec::new(), settings }
+    }
+
     /// What each cloth is made of, in their order: a fabric of its own, or that of the settings.
     pub fn fabrics(&self) -> impl Iterator<Item = &Fabric> {
         self.cloths.iter().map(|cloth| cloth.fabric().unwrap_or(&self.settings.fabric))

@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 
 /// A number of a fabric, of the air or of the settings, and what it may be.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Number<T> {
     /// Its name in a scene file.
     pub name: &'static str,

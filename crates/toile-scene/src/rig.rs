@@ -79,6 +79,7 @@ pub struct Joint {
 
 /// A node that carries itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct OwnAncestor {
     /// Index of the node.
     pub node: usize,

@@ -6,6 +6,7 @@ use std::ops::RangeInclusive;
 
 /// How a scene is simulated.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Settings {
     /// What every cloth is made of that has no fabric of its own.
     pub fabric: Fabric,
@@ -93,6 +94,7 @@ pub const AIR_DENSITY: f64 = 1.2;
 ///
 /// No part of the cloth shelters another, and the cloth does not change the wind.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Wind {
     /// Velocity of the air [m/s].
     pub velocity: DVec3,
@@ -125,6 +127,7 @@ impl Wind {
 
 /// What keeps the cloth from stretching like rubber.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct VelocityModification {
     /// Which rule.
     pub rule: Rule,

@@ -14,6 +14,7 @@ const PLANE_SIDE: f64 = 2.0;
 
 /// An analytic shape.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Shape {
     /// What it is.
     pub form: Form,

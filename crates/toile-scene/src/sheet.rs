@@ -8,6 +8,7 @@ use glam::{DVec2, DVec3};
 /// Particle (column, row) starts at corner + right·size.x·column/(columns − 1) + down·size.y·row/(rows − 1) and has index
 /// row·columns + column. The outside is right × down, so a sheet with right = x and down = z faces −y.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Sheet {
     /// Name shown in metrics and meshes.
     pub name: String,
@@ -27,6 +28,24 @@ pub struct Sheet {
     pub pins: Vec<Pin>,
     /// What it is made of; `None` is the fabric of the settings.
     pub fabric: Option<Fabric>,
+}
+
+impl Sheet {
+    /// A sheet of `[columns, rows]` particles and of this size [m]. It lies at the origin with its columns along x and its rows along z, held
+    /// nowhere, of the fabric of the settings.
+    pub fn new(name: impl Into<String>, [columns, rows]: [u32; 2], size: DVec2) -> Self {
+        Self {
+            name: name.into(),
+            columns,
+            rows,
+            size,
+            corner: DVec3::ZERO,
+            right: DVec3::X,
+            down: DVec3::Z,
+            pins: Vec::new(),
+            fabric: None,
+        }
+    }
 }
 
 /// A particle of a sheet that does not move.

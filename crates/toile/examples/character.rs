@@ -105,11 +105,10 @@ impl Character {
 
     /// Where the library finds the vertices.
     fn vertices(&self) -> HostVertices {
-        HostVertices {
-            positions: HostAttribute::new(&self.posed, 0, STRIDE),
-            normals: HostAttribute::new(&self.posed, 12, STRIDE),
-            motion: Some(HostMotion::LastPositions(HostAttribute::new(&self.posed, 24, STRIDE))),
-        }
+        let attribute = |offset| HostAttribute::new(&self.posed, offset, STRIDE);
+        let mut vertices = HostVertices::new(attribute(0), attribute(12));
+        vertices.motion = Some(HostMotion::LastPositions(attribute(24)));
+        vertices
     }
 }
 
@@ -121,15 +120,15 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     // The mesh in the pose to dress in, vertex by vertex as the host has them; here it is read from a file.
     let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures");
-    let options = BodyOptions { clip: Some("apose_to_walk".to_owned()), ..BodyOptions::default() };
+    let mut options = BodyOptions::default();
+    options.clip = Some("apose_to_walk".to_owned());
     let mesh = read_moving_body(&fixtures.join("bodies/walking_woman.glb"), &options)?.body.mesh;
     let character = Character::new(&device, &mesh);
-    let scene = Scene {
-        name: "character".to_owned(),
-        cloths: vec![Cloth::Garment(read_garment(&fixtures.join("garments/skirt.json"))?.garment)],
-        bodies: vec![Body::Moving(MovingMesh::hosted(mesh))],
-        settings: Settings { spacing: 0.03, ..Settings::new(Fabric::preset("cotton").ok_or("cotton is a preset")?) },
-    };
+    let mut settings = Settings::new(Fabric::preset("cotton").ok_or("cotton is a preset")?);
+    settings.spacing = 0.03;
+    let mut scene = Scene::new("character", settings);
+    scene.cloths = vec![Cloth::Garment(read_garment(&fixtures.join("garments/skirt.json"))?.garment)];
+    scene.bodies = vec![Body::Moving(MovingMesh::hosted(mesh))];
     let mut simulation = Simulation::new(&device, &scene)?;
     // The same buffers at every frame, so once is enough.
     simulation.set_vertices(character.vertices());

@@ -18,21 +18,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (device, queue) = pollster::block_on(adapter.request_device(&Default::default()))?;
 
     let settings = Settings::new(Fabric::preset("cotton").ok_or("cotton is a preset")?);
-    let sheet = Sheet {
-        name: "sheet".to_owned(),
-        columns: 64,
-        rows: 64,
-        size: DVec2::splat(1.0),
-        corner: DVec3::new(-0.5, 0.4, 0.5),
-        right: DVec3::X,
-        down: DVec3::NEG_Z,
-        pins: Vec::new(),
-        fabric: None,
-    };
+    let mut sheet = Sheet::new("sheet", [64, 64], DVec2::splat(1.0));
+    sheet.corner = DVec3::new(-0.5, 0.4, 0.5);
+    sheet.down = DVec3::NEG_Z;
     let sphere = Shape::sphere(DVec3::ZERO, 0.25);
     let model = Model::from_sheet(&sheet, &settings);
     let step = StepSettings::new(&settings, &model);
-    let colliders = Colliders { maps: None, shapes: vec![sphere] };
+    let colliders = Colliders::new(None, vec![sphere]);
     let mut cloth = Cloth::new(&device, &model, &step, colliders)?;
 
     for frame in 1..=120 {

@@ -38,15 +38,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (device, queue) = pollster::block_on(adapter.request_device(&Default::default()))?;
 
     let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures");
-    let options = BodyOptions { clip: Some("walk_loop".to_owned()), ..BodyOptions::default() };
+    let mut options = BodyOptions::default();
+    options.clip = Some("walk_loop".to_owned());
     let body = read_moving_body(&fixtures.join("bodies/walking_woman.glb"), &options)?.body;
     let cotton = Fabric::preset("cotton").ok_or("cotton is a preset")?;
-    let scene = Scene {
-        name: "walk".to_owned(),
-        cloths: vec![Cloth::Garment(read_garment(&fixtures.join("garments/skirt.json"))?.garment)],
-        bodies: vec![Body::Moving(body)],
-        settings: Settings { spacing: 0.03, ..Settings::new(cotton) },
-    };
+    let mut settings = Settings::new(cotton);
+    settings.spacing = 0.03;
+    let mut scene = Scene::new("walk", settings);
+    scene.cloths = vec![Cloth::Garment(read_garment(&fixtures.join("garments/skirt.json"))?.garment)];
+    scene.bodies = vec![Body::Moving(body)];
     let mut simulation = Simulation::new(&device, &scene)?;
     let renderer = Renderer::new(&device);
 

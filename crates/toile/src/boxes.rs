@@ -100,7 +100,9 @@ impl MapPlan {
     /// Maps that hold it all; `None` where there is nothing to see.
     pub(crate) fn space(&self) -> Option<MapSpace> {
         let map_box = self.boxes.as_ref().map(|boxes| boxes.at(0.0, DVec3::ZERO)).or(self.still_box)?;
-        Some(MapSpace { kind: self.kind, map_box, moving: self.boxes.is_some(), area: self.area })
+        let mut space = MapSpace::new(self.kind, map_box, self.area);
+        space.moving = self.boxes.is_some();
+        Some(space)
     }
 }
 

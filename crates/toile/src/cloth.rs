@@ -14,6 +14,7 @@ use wgpu::util::DeviceExt;
 
 /// What a cloth collides with.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct Colliders {
     /// Mesh bodies and inner garments, as maps.
     pub maps: Option<Arc<BodyMaps>>,
@@ -22,8 +23,13 @@ pub struct Colliders {
 }
 
 impl Colliders {
+    /// Maps, shapes, or both.
+    pub fn new(maps: Option<Arc<BodyMaps>>, shapes: Vec<Shape>) -> Self {
+        Self { maps, shapes }
+    }
+
     fn borrowed(&self) -> toile_gpu::Colliders<'_> {
-        toile_gpu::Colliders { maps: self.maps.as_deref(), shapes: self.shapes.clone() }
+        toile_gpu::Colliders::new(self.maps.as_deref(), self.shapes.clone())
     }
 }
 

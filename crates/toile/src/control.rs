@@ -57,17 +57,18 @@ impl Control {
 
     /// The settings of a scene with what is controlled.
     pub(crate) fn settings(&self, settings: &Settings) -> Settings {
-        Settings { gravity: self.gravity, wind: self.wind, ..settings.clone() }
+        let mut settings = settings.clone();
+        settings.gravity = self.gravity;
+        settings.wind = self.wind;
+        settings
     }
 
     /// Whether springs and limits of a cloth have other numbers than with another fabric.
     pub(crate) fn changes_model(&self, cloth: usize, fabric: &Fabric) -> bool {
-        let same = Fabric {
-            name: fabric.name.clone(),
-            damping: fabric.damping,
-            friction: fabric.friction,
-            ..self.fabrics[cloth].clone()
-        };
+        let mut same = self.fabrics[cloth].clone();
+        same.name = fabric.name.clone();
+        same.damping = fabric.damping;
+        same.friction = fabric.friction;
         same != *fabric
     }
 

@@ -21,14 +21,6 @@ pub struct Frame {
 impl Frame {
     /// The cloth as something that a later cloth collides with, at rest.
     pub fn surface(&self, device: &wgpu::Device) -> Surface {
-        Surface {
-            positions: self.positions.clone(),
-            normals: self.normals.clone(),
-            velocities: None,
-            indices: self.indices.clone(),
-            index_count: self.index_count,
-            parts: Surface::whole_triangles(device, self.index_count / 3),
-            open: true,
-        }
+        Surface::of_cloth(device, [&self.positions, &self.normals, &self.indices], self.index_count)
     }
 }

@@ -129,7 +129,7 @@ impl Outfit {
             // Where there is no body to see, the innermost cloth sees nothing.
             let space = space.as_ref().filter(|_| has_meshes || !layers.is_empty());
             let maps = space.map(|space| BodyMaps::new(kernels, space)).transpose()?.map(Arc::new);
-            let colliders = Colliders { maps: maps.clone(), shapes: bodies.shapes.clone() };
+            let colliders = Colliders::new(maps.clone(), bodies.shapes.clone());
             let cloth = Cloth::new(kernels, model, step, colliders)?;
             let drawn = cloth.frame();
             let seen = (layers.len() < outermost).then(|| {

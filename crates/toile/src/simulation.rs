@@ -103,7 +103,8 @@ impl Simulation {
     /// # Errors
     /// [`Error::Pose`] when the scene has no such body, and as [`Simulation::new`].
     pub fn dressed_in(kernels: impl Into<Kernels>, scene: &Scene, from: &MovingMesh) -> Result<Self, Error> {
-        let options = FitOptions { dress_in: Some(from.clone()), ..FitOptions::default() };
+        let mut options = FitOptions::default();
+        options.dress_in = Some(from.clone());
         Self::fitted(kernels, &Fit::new(scene, &options)?)
     }
 
@@ -311,7 +312,7 @@ impl Simulation {
             let Phase::Dressing(dressed) = &self.phase else { return Ok(0) };
             let maps = self.draw_still_maps(&dressed.done, &inner, recorder)?;
             let Phase::Dressing(dressed) = &mut self.phase else { return Ok(0) };
-            let colliders = Colliders { maps, shapes: self.bodies.shapes.clone() };
+            let colliders = Colliders::new(maps, self.bodies.shapes.clone());
             dressed.fitting = Some(Fitting::new(&self.kernels, piece, colliders)?);
         }
         let Phase::Dressing(dressed) = &mut self.phase else { return Ok(0) };
@@ -342,7 +343,7 @@ impl Simulation {
         let Some(map_box) = self.still_box(&meshes, garment_bounds) else { return Ok(None) };
         let dressed = self.pieces.iter().filter(|piece| piece.open.is_some());
         let area = meshes.iter().map(|mesh| mesh.area()).sum::<f64>() + inner_area(dressed, garments.len());
-        let maps = BodyMaps::new(&self.kernels, &MapSpace { kind: self.settings.maps, map_box, moving: false, area })?;
+        let maps = BodyMaps::new(&self.kernels, &MapSpace::new(self.settings.maps, map_box, area))?;
         let surface = |mesh: &&Mesh| Surface::new(&self.device, mesh, map_box.texel);
         let mut surfaces: Vec<Surface> = meshes.iter().map(surface).collect();
         let thicknesses: Vec<f32> = self.pieces.iter().map(|piece| piece.step.thickness).collect();
@@ -497,7 +498,8 @@ impl Simulation {
         };
         self.keeps_maps = true;
         let area = boxes.area() + self.under_all();
-        let space = MapSpace { kind: self.settings.maps, map_box: boxes.at(0.0, DVec3::ZERO), moving: true, area };
+        let mut space = MapSpace::new(self.settings.maps, boxes.at(0.0, DVec3::ZERO), area);
+        space.moving = true;
         Ok(u64::from(count) * space.bytes())
     }
 }

@@ -183,7 +183,7 @@ impl Simulation {
                 Ok(())
             })?;
             let model = piece.model_of(stage);
-            let colliders = Colliders { maps, shapes: self.bodies.shapes.clone() };
+            let colliders = Colliders::new(maps, self.bodies.shapes.clone());
             let mut cloth = Cloth::new(&self.kernels, model, &piece.settings_of(stage), colliders)?;
             saved.write(queue, &mut cloth)?;
             // What the maps of the next garment draw.

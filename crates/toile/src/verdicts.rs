@@ -30,7 +30,7 @@ impl Simulation {
                 seen => seen,
             };
             let (model, is_at_rest) = (&piece.model, dressing.is_at_rest());
-            Ok(Verdict::of(&Judged { model, positions: &positions, velocities, is_at_rest }, &body))
+            Ok(Verdict::of(&Judged::new(model, &positions, velocities, is_at_rest), &body))
         };
         garments.zip(&dressed.done).map(verdict).collect()
     }

@@ -8,5 +8,7 @@ use anyhow::Result;
 
 /// Dresses the outfit that the options name.
 pub fn run(arguments: &Dress) -> Result<Outcome> {
-    simulate(outfit::read(&arguments.outfit)?, &outfit::fit_options(&arguments.outfit), &arguments.running)
+    let (scene, warnings) = outfit::read(&arguments.outfit)?;
+    // It runs until the garments are at rest, so it has no frames.
+    simulate(&scene, 0, &warnings, &outfit::fit_options(&arguments.outfit), &arguments.running)
 }

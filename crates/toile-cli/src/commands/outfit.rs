@@ -3,9 +3,9 @@
 use crate::args::Outfit;
 use anyhow::{Result, bail};
 use std::path::Path;
-use toile::files::{self, BodyOptions, Fault, SceneFile};
+use toile::files::{self, BodyOptions, Fault};
 use toile::model::FitOptions;
-use toile::scene::{Body, Cloth, Fabric, Garment, MovingMesh, Scene, Settings, VelocityModification};
+use toile::scene::{Body, Cloth, Fabric, Garment, MovingMesh, Scene, Settings};
 
 /// The built-in body and the pose it is dressed in.
 const BODY: &[u8] = include_bytes!("../../../../fixtures/bodies/walking_woman.glb");
@@ -14,25 +14,19 @@ const BODY_CLIP: &str = "apose_to_walk";
 /// The built-in garment.
 const GARMENT: &str = include_str!("../../../../fixtures/garments/dress.json");
 
-/// Reads the outfit as a scene. It runs until the garments are at rest, so it has no frames.
-pub fn read(outfit: &Outfit) -> Result<SceneFile> {
+/// Reads the outfit as a scene, and what is unusual about its files.
+pub fn read(outfit: &Outfit) -> Result<(Scene, Vec<String>)> {
     let options = options(outfit);
     let body = match &outfit.body {
         Some(path) => files::read_body(path, &options)?,
-        None => {
-            let clip = Some(outfit.clip.clone().unwrap_or_else(|| BODY_CLIP.to_owned()));
-            files::parse_body(BODY, BODY_NAME, &BodyOptions { clip, metres_per_unit: 1.0, ..options })?
-        }
+        None => files::parse_body(BODY, BODY_NAME, &options)?,
     };
     let (garments, mut warnings) = read_garments(outfit)?;
     warnings.splice(..0, body.warnings);
-    let scene = Scene {
-        name: "outfit".to_owned(),
-        cloths: garments.into_iter().map(Cloth::Garment).collect(),
-        bodies: vec![Body::Mesh(body.mesh)],
-        settings: settings(outfit)?,
-    };
-    Ok(SceneFile { scene, frames: 0, warnings })
+    let mut scene = Scene::new("outfit", settings(outfit)?);
+    scene.cloths = garments.into_iter().map(Cloth::Garment).collect();
+    scene.bodies = vec![Body::Mesh(body.mesh)];
+    Ok((scene, warnings))
 }
 
 /// Reads the body of the outfit with its motion, and what is unusual about it.
@@ -40,17 +34,15 @@ pub fn read_moving_body(outfit: &Outfit) -> Result<(MovingMesh, Vec<String>)> {
     let options = options(outfit);
     let file = match &outfit.body {
         Some(path) => files::read_moving_body(path, &options)?,
-        None => {
-            let clip = Some(outfit.clip.clone().unwrap_or_else(|| BODY_CLIP.to_owned()));
-            files::parse_moving_body(BODY, BODY_NAME, &BodyOptions { clip, metres_per_unit: 1.0, ..options })?
-        }
+        None => files::parse_moving_body(BODY, BODY_NAME, &options)?,
     };
     Ok((file.body, file.warnings))
 }
 
 /// The built-in body with one of its clips.
 pub fn walking_woman(clip: &str) -> Result<MovingMesh> {
-    let options = BodyOptions { clip: Some(clip.to_owned()), ..BodyOptions::default() };
+    let mut options = BodyOptions::default();
+    options.clip = Some(clip.to_owned());
     Ok(files::parse_moving_body(BODY, BODY_NAME, &options)?.body)
 }
 
@@ -64,25 +56,40 @@ pub fn read_garments(outfit: &Outfit) -> Result<(Vec<Garment>, Vec<String>)> {
         let fabric = own.as_deref().map(fabric).transpose()?;
         let file = files::read_garment(path)?;
         warnings.extend(file.warnings.iter().map(|warning| format!("{}: {warning}", path.display())));
-        garments.push(Garment { fabric, ..file.garment });
+        let mut garment = file.garment;
+        garment.fabric = fabric;
+        garments.push(garment);
     }
     Ok((garments, warnings))
 }
 
 /// How the outfit is simulated.
 pub fn settings(outfit: &Outfit) -> Result<Settings> {
-    let default = Settings::new(fabric(&outfit.garments.fabric)?);
-    let velocity_modification = VelocityModification { polish: outfit.polish, ..default.velocity_modification };
-    Ok(Settings { velocity_modification, spacing: outfit.spacing, texel: outfit.texel, ..default })
+    let mut settings = Settings::new(fabric(&outfit.garments.fabric)?);
+    settings.velocity_modification.polish = outfit.polish;
+    settings.spacing = outfit.spacing;
+    settings.texel = outfit.texel;
+    Ok(settings)
 }
 
 /// What the user says of how the body stands.
 pub fn fit_options(outfit: &Outfit) -> FitOptions {
-    FitOptions { up: outfit.up, facing: outfit.facing, dress_in: None }
+    let mut options = FitOptions::default();
+    options.up = outfit.up;
+    options.facing = outfit.facing;
+    options
 }
 
+/// How the body is read. The built-in one is in metres, and stands in a clip in any case.
 fn options(outfit: &Outfit) -> BodyOptions {
-    BodyOptions { metres_per_unit: outfit.body_units.metres(), clip: outfit.clip.clone(), time: outfit.time }
+    let mut options = BodyOptions::default();
+    options.time = outfit.time;
+    options.clip.clone_from(&outfit.clip);
+    match outfit.body {
+        Some(_) => options.metres_per_unit = outfit.body_units.metres(),
+        None => options.clip = options.clip.or_else(|| Some(BODY_CLIP.to_owned())),
+    }
+    options
 }
 
 fn fabric(name: &str) -> Result<Fabric> {
@@ -113,7 +120,7 @@ mod tests {
         let Command::Dress(dress) = Arguments::try_parse_from(words).expect("it is clear").command else {
             panic!("it was dress")
         };
-        let scene = read(&dress.outfit).expect("it can be read").scene;
+        let scene = read(&dress.outfit).expect("it can be read").0;
         scene.fabrics().map(|fabric| fabric.name.clone()).collect()
     }
 

@@ -18,13 +18,16 @@ use toile::scene::{Body, Cloth, Mesh, Scene, Shape};
 
 /// Prints passes, dispatches and bytes of every cloth of a scene; draws the limits of all of them when a picture is wanted.
 pub fn run(arguments: &PlanOf) -> Result<()> {
-    let file = match &arguments.scene {
-        Some(path) => read_scene(path, &arguments.set)?,
+    let (scene, warnings) = match &arguments.scene {
+        Some(path) => {
+            let file = read_scene(path, &arguments.set)?;
+            (file.scene, file.warnings)
+        }
         None => outfit::read(&arguments.outfit)?,
     };
-    fit::tell_of_files(&file.warnings);
-    let patterns = patterns(&file.scene)?;
-    let plans = plans(&file.scene, &patterns)?;
+    fit::tell_of_files(&warnings);
+    let patterns = patterns(&scene)?;
+    let plans = plans(&scene, &patterns)?;
     if let Some(path) = &arguments.picture {
         write_atomically(path, pattern::draw(&patterns).as_bytes())?;
     }
@@ -102,13 +105,13 @@ fn plans(scene: &Scene, patterns: &[Pattern]) -> Result<Vec<ClothPlan>> {
         let moves =
             sewn.is_none() && (patterns.len() > 1 || scene.bodies.iter().any(|body| matches!(body, Body::Moving(_))));
         let maps = if bounds.is_none() { Maps::None } else { Maps::of(scene.settings.maps, moves) };
-        let space = |bounds| MapSpace {
-            kind: scene.settings.maps,
-            map_box: MapBox::around(bounds, scene.settings.texel as f32),
-            moving: moves,
-            area: area + meshes(scene).map(Mesh::area).sum::<f64>(),
-        };
-        let map_bytes = bounds.map_or(0, |bounds| space(bounds).bytes());
+        let map_bytes = bounds.map_or(0, |bounds| {
+            let map_box = MapBox::around(bounds, scene.settings.texel as f32);
+            let bodies: f64 = meshes(scene).map(Mesh::area).sum();
+            let mut space = MapSpace::new(scene.settings.maps, map_box, area + bodies);
+            space.moving = moves;
+            space.bytes()
+        });
         for (state, model, step) in &models {
             plans.push(ClothPlan::new(name, state, model, step, maps, &shapes, map_bytes));
         }

@@ -93,7 +93,8 @@ fn draw(file: &SceneFile, rows: &[Row], ends: &[(Mesh, Option<Mesh>)]) -> Result
         let thickness = file.scene.fabrics().next().map_or(0.0, |fabric| fabric.thickness);
         let mut drawn = vec![Drawn::cloth(cloth, 0, thickness)];
         drawn.extend(ball.as_ref().map(Drawn::body));
-        let mut picture = picture::render_in(&drawn, stage.unwrap_or_default(), View::ThreeQuarter, PICTURE_HEIGHT)?;
+        let views = picture::render(&drawn, stage.or(Some(Default::default())), &[View::ThreeQuarter], PICTURE_HEIGHT)?;
+        let Some(mut picture) = views.into_iter().next() else { unreachable!("one view was asked for") };
         let stretch = format!("{:.1} %", 1e2 * row.elongation_max_over_run);
         picture::caption(&mut picture, &[row.rule, &row.word(), &stretch]);
         Ok(picture)

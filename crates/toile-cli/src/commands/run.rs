@@ -9,5 +9,6 @@ use toile::model::FitOptions;
 
 /// Runs a scene file.
 pub fn run(arguments: &Run) -> Result<Outcome> {
-    simulate(read_scene(&arguments.scene, &arguments.set)?, &FitOptions::default(), &arguments.running)
+    let file = read_scene(&arguments.scene, &arguments.set)?;
+    simulate(&file.scene, file.frames, &file.warnings, &FitOptions::default(), &arguments.running)
 }

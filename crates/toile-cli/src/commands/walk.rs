@@ -8,8 +8,7 @@ use crate::outcome::Outcome;
 use crate::picture::View;
 use crate::walk;
 use anyhow::{Result, bail};
-use toile::model::FitOptions;
-use toile::scene::{Body, Cloth, MovingMesh, Scene, Settings, Wind};
+use toile::scene::{Body, Cloth, MovingMesh, Scene, Wind};
 use toile_lab::motion::Made;
 
 /// Walks the outfit that the options name.
@@ -27,8 +26,9 @@ pub fn run(arguments: &Walk) -> Result<Outcome> {
         fit::tell_of_files(&warnings);
         fit::tell_of_files(&of_garments);
     }
-    let settings =
-        Settings { frame_rate: arguments.fps, wind: arguments.wind.map(Wind::new), ..outfit::settings(outfit)? };
+    let mut settings = outfit::settings(outfit)?;
+    settings.frame_rate = arguments.fps;
+    settings.wind = arguments.wind.map(Wind::new);
     let dress_in = match &arguments.dress_in {
         Some(clip) => {
             let from = outfit::read_moving_body(&Outfit { clip: Some(clip.clone()), ..outfit.clone() })?.0;
@@ -41,13 +41,11 @@ pub fn run(arguments: &Walk) -> Result<Outcome> {
     if frame_count == 0 {
         bail!("a walk of {seconds} s at {} frames per second has no frame: give more --seconds", arguments.fps);
     }
-    let options = FitOptions { dress_in, ..outfit::fit_options(outfit) };
-    let scene = Scene {
-        name: "walk".to_owned(),
-        cloths: garments.into_iter().map(Cloth::Garment).collect(),
-        bodies: vec![Body::Moving(body)],
-        settings: settings.clone(),
-    };
+    let mut options = outfit::fit_options(outfit);
+    options.dress_in = dress_in;
+    let mut scene = Scene::new("walk", settings.clone());
+    scene.cloths = garments.into_iter().map(Cloth::Garment).collect();
+    scene.bodies = vec![Body::Moving(body)];
     let fit = fit::look(&scene, &options)?;
     let Some(body) = bodies::moving(&fit.scene).next().cloned() else { unreachable!("it was just put there") };
     if !arguments.running.quiet {

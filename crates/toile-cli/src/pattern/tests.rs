@@ -5,7 +5,9 @@ use toile::model::{Level, Merge, Model};
 use toile::scene::{Fabric, Pin, Settings, Sheet};
 
 fn settings() -> Settings {
-    Settings { spacing: 0.03, ..Settings::new(Fabric::preset("cotton").expect("a preset")) }
+    let mut settings = Settings::new(Fabric::preset("cotton").expect("a preset"));
+    settings.spacing = 0.03;
+    settings
 }
 
 /// The skirt has darts, so that its panels are also sewn to themselves.
@@ -20,17 +22,9 @@ fn skirt() -> Pattern {
 /// A sheet that hangs on its upper corners.
 fn curtain() -> Pattern {
     let columns = 13;
-    let sheet = Sheet {
-        name: "a < b & c".to_owned(),
-        columns,
-        rows: 9,
-        size: DVec2::new(0.05 * f64::from(columns - 1), 0.4),
-        corner: DVec3::ZERO,
-        right: DVec3::X,
-        down: DVec3::NEG_Y,
-        pins: [0, columns - 1].map(|column| Pin { column, row: 0 }).to_vec(),
-        fabric: None,
-    };
+    let mut sheet = Sheet::new("a < b & c", [columns, 9], DVec2::new(0.05 * f64::from(columns - 1), 0.4));
+    sheet.down = DVec3::NEG_Y;
+    sheet.pins = [0, columns - 1].map(|column| Pin { column, row: 0 }).to_vec();
     let open = Model::from_sheet(&sheet, &settings());
     let merge = Merge::identity(open.particle_count());
     Pattern { name: sheet.name, open, sewn: None, merge }

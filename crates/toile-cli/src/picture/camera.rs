@@ -113,6 +113,11 @@ impl Camera {
         Self { width, height, axes, samples }
     }
 
+    /// Pixels per unit of length.
+    pub fn pixels(&self) -> f32 {
+        self.samples.scale / SAMPLES as f32
+    }
+
     /// Where the line of sight through a pixel meets the plane through the origin that faces the camera.
     pub fn unproject(&self, pixel: Vec2) -> Vec3 {
         let cell = (SAMPLES as f32 * pixel - self.samples.origin) / self.samples.scale;

@@ -38,10 +38,14 @@ fn flipped(mut mesh: Mesh) -> Mesh {
     mesh
 }
 
+fn of_view(drawn: &[Drawn], stage: Option<[Vec3; 2]>, view: View, height: u32) -> Result<RgbImage, PictureError> {
+    render(drawn, stage, &[view], height).map(|pictures| pictures.into_iter().next().expect("one view was asked for"))
+}
+
 fn picture(meshes: &[(&Mesh, Material)], view: View) -> RgbImage {
     let drawn: Vec<_> =
         meshes.iter().map(|(mesh, material)| Drawn { mesh, material: *material, thickness: 0.0 }).collect();
-    render(&drawn, view, 240).expect("a finite scene has a picture")
+    of_view(&drawn, None, view, 240).expect("a finite scene has a picture")
 }
 
 fn is_green(p: &Rgb<u8>) -> bool {
@@ -131,6 +135,32 @@ fn all_views_have_one_scale() {
 }
 
 #[test]
+fn views_drawn_together_are_those_drawn_alone() {
+    let [a, b] = [ball(Vec3::ZERO, 1.0), ball(Vec3::new(0.3, 0.9, 1.5), 0.6)];
+    let drawn = [(&a, GREEN), (&b, RED)].map(|(mesh, material)| Drawn { mesh, material, thickness: 0.0 });
+    let views = [View::Front, View::Side, View::Back];
+    let together = render(&drawn, None, &views, 120).expect("a finite scene has pictures");
+    for (view, picture) in views.into_iter().zip(together) {
+        assert!(picture == of_view(&drawn, None, view, 120).expect("a finite scene has a picture"), "{view:?}");
+    }
+}
+
+#[test]
+fn what_stands_below_shades_what_faces_down() {
+    let above = ball(Vec3::ZERO, 0.5);
+    let plate = Mesh::cuboid(Vec3::new(-1.0, -0.6, -1.0), Vec3::new(1.0, -0.52, 1.0));
+    let stage = [Vec3::new(-1.0, -1.0, -1.0), Vec3::new(1.0, 1.0, 1.0)];
+    let lowest = |meshes: &[&Mesh]| {
+        let drawn: Vec<_> = meshes.iter().map(|mesh| Drawn { mesh, material: GREEN, thickness: 0.0 }).collect();
+        let image = of_view(&drawn, Some(stage), View::Front, 240).expect("a finite scene has a picture");
+        // In the middle column, where the ball faces down and the plate does not hide it.
+        image.get_pixel(image.width() / 2, 157)[1]
+    };
+    let [open, shaded] = [lowest(&[&above]), lowest(&[&above, &plate])];
+    assert!(shaded + 20 < open, "{shaded} above the plate, {open} without it");
+}
+
+#[test]
 fn what_stands_between_throws_a_shadow() {
     let floor = Mesh {
         positions: [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)].map(|(x, z)| Vec3::new(x, 0.0, z)).into(),
@@ -153,7 +183,7 @@ fn a_cloth_hides_what_stands_up_by_less_than_its_thickness() {
     let reds = [0.0, 0.03].map(|thickness| {
         let drawn =
             [Drawn { mesh: &cloth, material: GREEN, thickness }, Drawn { mesh: &bump, material: RED, thickness: 0.0 }];
-        count(&render(&drawn, View::Front, 240).expect("a picture"), is_red)
+        count(&of_view(&drawn, None, View::Front, 240).expect("a picture"), is_red)
     });
     assert!(reds[0] > 1000 && reds[1] == 0, "{reds:?}");
 }
@@ -166,7 +196,7 @@ fn non_finite_vertices_are_refused() {
     broken.positions[20].x = f32::INFINITY;
     broken.normals[30].z = f32::NEG_INFINITY;
     let drawn = [&sound, &broken].map(|mesh| Drawn { mesh, material: GREEN, thickness: 0.0 });
-    let error = render(&drawn, View::Front, 100).expect_err("three vertices are nowhere");
+    let error = of_view(&drawn, None, View::Front, 100).expect_err("three vertices are nowhere");
     assert!(matches!(error, PictureError::NonFinite { count: 3, mesh: 1, vertex: 17 }), "{error:?}");
     assert!(error.to_string().contains("3 vertices") && error.to_string().contains("vertex 17 of mesh 1"));
 }
@@ -175,7 +205,7 @@ fn non_finite_vertices_are_refused() {
 fn nothing_to_see_is_refused() {
     let point = Mesh { positions: vec![Vec3::ONE; 3], normals: vec![Vec3::Y; 3], triangles: vec![[0, 1, 2]] };
     for mesh in [Mesh::default(), point] {
-        let result = render(&[Drawn { mesh: &mesh, material: GREEN, thickness: 0.0 }], View::Front, 100);
+        let result = of_view(&[Drawn { mesh: &mesh, material: GREEN, thickness: 0.0 }], None, View::Front, 100);
         assert!(matches!(result, Err(PictureError::Empty)));
     }
 }
@@ -198,7 +228,7 @@ fn what_lies_far_out_of_the_picture_takes_no_memory_and_shades_nothing() {
     let stage = [Vec3::new(-1.2, 0.0, -1.2), Vec3::new(1.2, 2.0, 1.2)];
     let picture = |meshes: &[&Mesh]| {
         let drawn: Vec<_> = meshes.iter().map(|mesh| Drawn { mesh, material: GREEN, thickness: 0.0 }).collect();
-        render_in(&drawn, stage, View::Front, 100).expect("a finite scene has a picture")
+        of_view(&drawn, Some(stage), View::Front, 100).expect("a finite scene has a picture")
     };
     let alone = picture(&[&near]);
     assert!(count(&alone, is_green) > 1000);

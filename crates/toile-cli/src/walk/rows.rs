@@ -49,6 +49,7 @@ pub struct WalkMetrics {
     /// step after the walk, timed pass by pass.
     collision_ms_median: f64,
     output_ms_median: f64,
+    picture_ms_median: f64,
     frames: Vec<FrameRow>,
 }
 
@@ -103,6 +104,8 @@ pub struct FrameRow {
     pub simulation_ms: f64,
     /// Wall time of reading back, measuring, drawing and saving [ms].
     pub output_ms: f64,
+    /// The part of it that goes to the pictures of the frame, drawn and saved [ms].
+    pub picture_ms: f64,
 }
 
 impl FrameRow {
@@ -237,6 +240,7 @@ impl WalkMetrics {
             simulation_ms_median: median(|row| row.simulation_ms),
             collision_ms_median: collision_part * median(|row| row.simulation_ms),
             output_ms_median: median(|row| row.output_ms),
+            picture_ms_median: median(|row| row.picture_ms),
             frames,
         }
     }
@@ -255,7 +259,7 @@ impl WalkMetrics {
     /// The walk on one line, for the terminal.
     pub fn line(&self) -> String {
         format!(
-            "{}: {} particles · {} frames of {} steps · {} · {} (99 of 100: {}, edges {}, faces {}) · crossed {} · false contacts {:.2} % · maps {:.0} ms, simulation {:.0} ms (bodies {:.0} ms), output {:.0} ms per frame",
+            "{}: {} particles · {} frames of {} steps · {} · {} (99 of 100: {}, edges {}, faces {}) · crossed {} · false contacts {:.2} % · maps {:.0} ms, simulation {:.0} ms (bodies {:.0} ms), output {:.0} ms (pictures {:.0} ms) per frame",
             self.garments.join(", "),
             self.particle_count,
             self.frame_count,
@@ -271,6 +275,7 @@ impl WalkMetrics {
             self.simulation_ms_median,
             self.collision_ms_median,
             self.output_ms_median,
+            self.picture_ms_median,
         )
     }
 }

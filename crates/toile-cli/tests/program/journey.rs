@@ -559,7 +559,8 @@ fn an_outfit_walks_together() {
 #[test]
 fn a_body_that_lies_is_turned_and_dressed() {
     let journey = Journey::new();
-    let options = toile::files::BodyOptions { clip: Some("apose_to_walk".to_owned()), ..Default::default() };
+    let mut options = toile::files::BodyOptions::default();
+    options.clip = Some("apose_to_walk".to_owned());
     let path = PathBuf::from(fixture("bodies/walking_woman.glb"));
     let body = toile::files::read_body(&path, &options).expect("the fixture").mesh;
     let vertices = body.positions.iter().map(|p| format!("v {} {} {}\n", p.x, -p.z, p.y));

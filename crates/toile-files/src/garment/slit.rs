@@ -87,12 +87,12 @@ mod tests {
     use toile_scene::{Curve, Edge, Panel, Placement};
 
     fn panel(corners: &[[f64; 2]]) -> Panel {
-        let edge = |corner: &[f64; 2]| Edge { start: DVec2::from(*corner), curve: Curve::Straight, label: None };
-        Panel {
-            name: "p".into(),
-            edges: corners.iter().map(edge).collect(),
-            placement: Placement { rotation: DQuat::IDENTITY, translation: DVec3::ZERO },
-        }
+        let edge = |corner: &[f64; 2]| Edge::new(DVec2::from(*corner), Curve::Straight);
+        Panel::new(
+            "p",
+            corners.iter().map(edge).collect(),
+            Placement { rotation: DQuat::IDENTITY, translation: DVec3::ZERO },
+        )
     }
 
     fn crosses(panel: &Panel) -> bool {

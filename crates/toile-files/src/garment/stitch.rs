@@ -54,5 +54,7 @@ pub(crate) fn convert(
             return Err(malformed(&message));
         }
     }
-    Ok(Seam { sides, right_wrong })
+    let mut seam = Seam::new(sides);
+    seam.right_wrong = right_wrong;
+    Ok(seam)
 }

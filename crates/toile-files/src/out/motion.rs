@@ -8,6 +8,7 @@ use std::path::Path;
 
 /// The faces of a mesh that moves.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct MovingFaces<'a> {
     /// Name, such as that of the garment.
     pub name: &'a str,
@@ -15,6 +16,13 @@ pub struct MovingFaces<'a> {
     pub triangles: &'a [[u32; 3]],
     /// Linear colour, red, green and blue, 0 to 1.
     pub colour: [f32; 3],
+}
+
+impl<'a> MovingFaces<'a> {
+    /// Faces with a name and a linear colour, 0 to 1.
+    pub fn new(name: &'a str, triangles: &'a [[u32; 3]], colour: [f32; 3]) -> Self {
+        Self { name, triangles, colour }
+    }
 }
 
 /// Writes meshes that move as USD text: one mesh each with points at every frame [m], y up, frame k at time code k.

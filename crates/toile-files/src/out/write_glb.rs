@@ -9,6 +9,7 @@ use toile_scene::Mesh;
 
 /// A mesh with the name and colour that a viewer shows.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct NamedMesh<'a> {
     /// Name of node and mesh.
     pub name: &'a str,
@@ -16,6 +17,13 @@ pub struct NamedMesh<'a> {
     pub mesh: &'a Mesh,
     /// Base colour, linear RGB, 0 to 1.
     pub colour: [f32; 3],
+}
+
+impl<'a> NamedMesh<'a> {
+    /// A mesh with a name and a linear colour, 0 to 1.
+    pub fn new(name: &'a str, mesh: &'a Mesh, colour: [f32; 3]) -> Self {
+        Self { name, mesh, colour }
+    }
 }
 
 // Numbers of the glTF 2.0 specification.

@@ -73,18 +73,19 @@ fn fill(table: FabricTable, folder: &Path, name: &str, prefix: &str, depth: usiz
     let inherited_name = base.map_or(name, |base| base.name.as_str());
     // Without a base, and without a word on it, bending is left to the bend springs.
     let bending_rigidity = table.bending_rigidity.or(base.is_none().then_some(0.0));
-    Ok(Fabric {
-        name: table.name.unwrap_or_else(|| inherited_name.into()),
-        areal_density: given("areal_density", table.areal_density)?,
-        structural_stiffness: given("structural_stiffness", table.structural_stiffness)?,
-        shear_stiffness: given("shear_stiffness", table.shear_stiffness)?,
-        bend_stiffness: given("bend_stiffness", table.bend_stiffness)?,
-        bending_rigidity: given("bending_rigidity", bending_rigidity)?,
-        damping: given("damping", table.damping)?,
-        thickness: given("thickness", table.thickness)?,
-        friction: given("friction", table.friction)?,
-        threshold: threshold(table.threshold, base.map(|f| f.threshold), &format!("{prefix}threshold"))?,
-    })
+    // Without a base all that cotton has is set anew.
+    let mut fabric = base.cloned().unwrap_or_else(|| Fabric::preset("cotton").expect("cotton is a preset"));
+    fabric.name = table.name.unwrap_or_else(|| inherited_name.into());
+    fabric.areal_density = given("areal_density", table.areal_density)?;
+    fabric.structural_stiffness = given("structural_stiffness", table.structural_stiffness)?;
+    fabric.shear_stiffness = given("shear_stiffness", table.shear_stiffness)?;
+    fabric.bend_stiffness = given("bend_stiffness", table.bend_stiffness)?;
+    fabric.bending_rigidity = given("bending_rigidity", bending_rigidity)?;
+    fabric.damping = given("damping", table.damping)?;
+    fabric.thickness = given("thickness", table.thickness)?;
+    fabric.friction = given("friction", table.friction)?;
+    fabric.threshold = threshold(table.threshold, base.map(|f| f.threshold), &format!("{prefix}threshold"))?;
+    Ok(fabric)
 }
 
 /// The threshold of a fabric; a direction that the table leaves out is that of the base.

@@ -81,7 +81,9 @@ fn convert_sphere(index: usize, toml: &SphereToml) -> Result<Shape, Found> {
     let key = |name: &str| format!("sphere.{index}.{name}");
     let motion = convert_motion(&key, &toml.swing, &toml.keys)?;
     let radius = within(&key("radius"), toml.radius, SIZES, "m")?;
-    Ok(Shape { motion, ..Shape::sphere(vector(&key("centre"), toml.centre)?, radius) })
+    let mut shape = Shape::sphere(vector(&key("centre"), toml.centre)?, radius);
+    shape.motion = motion;
+    Ok(shape)
 }
 
 /// Converts a capsule of a scene.
@@ -94,7 +96,9 @@ fn convert_capsule(index: usize, toml: &CapsuleToml) -> Result<Shape, Found> {
         let range = format!("{} to {} m", SIZES.start(), SIZES.end());
         return Err(wrong(&key("ends"), format!("they must be {range} apart; a sphere has one centre")));
     }
-    Ok(Shape { motion, ..Shape::capsule(ends, radius) })
+    let mut shape = Shape::capsule(ends, radius);
+    shape.motion = motion;
+    Ok(shape)
 }
 
 /// Converts a plane of a scene.
@@ -103,7 +107,9 @@ fn convert_plane(index: usize, toml: &PlaneToml) -> Result<Shape, Found> {
     let motion = convert_motion(&key, &toml.swing, &toml.keys)?;
     let normal = vector(&key("normal"), toml.normal)?.try_normalize();
     let normal = normal.ok_or_else(|| wrong(&key("normal"), "it must be a direction out of the plane, not zero"))?;
-    Ok(Shape { motion, ..Shape::plane(vector(&key("point"), toml.point)?, normal) })
+    let mut shape = Shape::plane(vector(&key("point"), toml.point)?, normal);
+    shape.motion = motion;
+    Ok(shape)
 }
 
 /// Converts a box of a scene.
@@ -113,10 +119,14 @@ fn convert_box(index: usize, toml: &BoxToml) -> Result<Shape, Found> {
     for size in toml.size {
         within(&key("size"), size, SIZES, "m")?;
     }
-    let half_size = 0.5 * DVec3::from(toml.size);
+    let size = DVec3::from(toml.size);
+    let half_size = 0.5 * size;
     let radius = within(&key("radius"), toml.radius.unwrap_or(0.0), 0.0..=half_size.min_element(), "m")?;
     let rotation = convert_rotation(&key("rotation"), toml.rotation)?;
-    Ok(Shape { form: Form::Box { half_size, rotation, radius }, centre: vector(&key("centre"), toml.centre)?, motion })
+    let mut shape = Shape::cuboid(vector(&key("centre"), toml.centre)?, size, radius);
+    shape.form = Form::Box { half_size, rotation, radius };
+    shape.motion = motion;
+    Ok(shape)
 }
 
 /// Converts an axis and an angle in degrees.

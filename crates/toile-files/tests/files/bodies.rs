@@ -219,7 +219,8 @@ fn the_units_message_names_the_unit_that_helps() {
     a.obj: the body is 0.0160 m tall, and bodies are 0.2 m to 4 m tall: no unit from mm to m makes it a body's size
     a.obj: the body is 1.60e6 m tall, and bodies are 0.2 m to 4 m tall: no unit from mm to m makes it a body's size
     ");
-    let options = BodyOptions { metres_per_unit: 0.001, ..BodyOptions::default() };
+    let mut options = BodyOptions::default();
+    options.metres_per_unit = 0.001;
     let error = parse_body(scaled(1.0).as_bytes(), "a.obj", &options).expect_err("1.6 mm");
     assert!(error.to_string().contains("give m as its unit"), "{error}");
 }
@@ -238,7 +239,9 @@ fn what_lies_far_from_a_body_is_refused() {
 #[test]
 fn a_clip_or_a_time_that_there_is_none_of_is_refused() {
     let told = |clip: Option<&str>, time| {
-        let options = BodyOptions { clip: clip.map(String::from), time, ..BodyOptions::default() };
+        let mut options = BodyOptions::default();
+        options.clip = clip.map(String::from);
+        options.time = time;
         parse_body(obj_text(&ellipsoid()).as_bytes(), "a.obj", &options).expect_err("no clip").to_string()
     };
     insta::assert_snapshot!([told(Some("walk"), 0.0), told(None, 0.5)].join("\n"), @"

@@ -56,7 +56,8 @@ fn a_missing_file_and_a_folder_are_named() {
 
 #[test]
 fn the_flag_of_the_message_makes_the_body_readable() {
-    let options = BodyOptions { metres_per_unit: 0.01, ..BodyOptions::default() };
+    let mut options = BodyOptions::default();
+    options.metres_per_unit = 0.01;
     let body = read_body(&fixture("broken/wrong_units.obj"), &options).expect("a body in centimetres");
     let [low, high] = body.mesh.bounds().expect("vertices");
     assert!((high.y - low.y - 1.6).abs() < 1e-5);

@@ -29,7 +29,9 @@ fn body(bytes: &[u8], name: &str) {
         if clip.is_some() && !name.ends_with('b') && !name.ends_with('f') {
             continue;
         }
-        let options = BodyOptions { clip, time: 0.0, ..BodyOptions::default() };
+        let mut options = BodyOptions::default();
+        options.clip = clip;
+        options.time = 0.0;
         if let Ok(file) = parse_body(bytes, name, &options) {
             assert!(!file.mesh.triangles.is_empty());
             assert!(file.mesh.positions.iter().chain(&file.mesh.normals).all(|vector| vector.is_finite()));

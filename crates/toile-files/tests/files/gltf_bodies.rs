@@ -64,7 +64,9 @@ pub fn embedded(mut root: Value, bytes: &[u8]) -> Vec<u8> {
 /// Centre of the posed ellipsoid in x, and its extent in x, at a time of the clip.
 fn pose(interpolation: &str, clip: Option<&str>, time: f64) -> [f32; 2] {
     let (root, bytes) = animated(interpolation);
-    let options = BodyOptions { clip: clip.map(String::from), time, ..BodyOptions::default() };
+    let mut options = BodyOptions::default();
+    options.clip = clip.map(String::from);
+    options.time = time;
     let body = parse_body(&embedded(root, &bytes), "a.gltf", &options).expect("a readable body");
     let [low, high] = body.mesh.bounds().expect("vertices");
     [0.5 * (low.x + high.x), high.x - low.x]
@@ -156,7 +158,8 @@ fn faults_name_accessor_node_or_key() {
         circle,
         change("/meshes/0/primitives/0/attributes/POSITION", 77.into()),
     ];
-    let options = BodyOptions { clip: Some("move".into()), ..BodyOptions::default() };
+    let mut options = BodyOptions::default();
+    options.clip = Some("move".into());
     let message =
         |root: Value| parse_body(&embedded(root, &bytes), "a.gltf", &options).expect_err("a refusal").to_string();
     let messages: Vec<String> = cases.into_iter().map(message).collect();
@@ -178,7 +181,8 @@ fn faults_name_accessor_node_or_key() {
 
 #[test]
 fn an_unknown_clip_lists_the_known_ones() {
-    let options = BodyOptions { clip: Some("run".into()), ..BodyOptions::default() };
+    let mut options = BodyOptions::default();
+    options.clip = Some("run".into());
     let error = read_body(&fixture("bodies/walking_woman.glb"), &options).expect_err("no such clip");
     let error = error.to_string();
     let (_, sentence) = error.rsplit_once(": there").expect("the sentence");
@@ -188,7 +192,9 @@ fn an_unknown_clip_lists_the_known_ones() {
 #[test]
 fn the_walking_woman_walks() {
     let at = |clip: Option<&str>, time| {
-        let options = BodyOptions { clip: clip.map(String::from), time, ..BodyOptions::default() };
+        let mut options = BodyOptions::default();
+        options.clip = clip.map(String::from);
+        options.time = time;
         let body = read_body(&fixture("bodies/walking_woman.glb"), &options).expect("the fixture");
         assert_eq!(body.warnings, [] as [&str; 0]);
         assert_eq!((body.mesh.positions.len(), body.mesh.triangles.len()), (13_380, 26_756));
@@ -212,7 +218,7 @@ fn every_cut_of_a_glb_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("whole.glb");
     let mesh = ellipsoid();
-    write_glb(&path, &[NamedMesh { name: "body", mesh: &mesh, colour: [1.0; 3] }]).expect("a file");
+    write_glb(&path, &[NamedMesh::new("body", &mesh, [1.0; 3])]).expect("a file");
     let bytes = fs::read(&path).expect("the file");
     parse_body(&bytes, "whole.glb", &BodyOptions::default()).expect("the whole file");
     for length in (0..bytes.len()).step_by(7) {
@@ -293,7 +299,9 @@ fn normals_of_what_is_mirrored_stay_outside_at_rest_and_in_motion() {
         }
         let moving = toile_files::parse_moving_body(&text, "a.gltf", &BodyOptions::default()).expect("a clip").body;
         for time in [0.0, 2.0] {
-            let options = BodyOptions { clip: Some("move".into()), time, ..BodyOptions::default() };
+            let mut options = BodyOptions::default();
+            options.clip = Some("move".into());
+            options.time = time;
             let rest = parse_body(&text, "a.gltf", &options).expect("a readable body").mesh;
             for (a, b) in moving.at(time).normals.iter().zip(&rest.normals) {
                 assert!(a.distance(*b) < 1e-5, "{scale:?} {time} {a} {b}");
@@ -500,7 +508,9 @@ fn what_nothing_reads_of_a_gltf_is_told_once_by_name() {
 #[test]
 fn what_pointers_move_is_moved() {
     let (mut root, bytes) = animated("LINEAR");
-    let options = BodyOptions { clip: Some("move".into()), time: 2.0, ..BodyOptions::default() };
+    let mut options = BodyOptions::default();
+    options.clip = Some("move".into());
+    options.time = 2.0;
     let expected = parse_body(&embedded(root.clone(), &bytes), "a.gltf", &options).expect("a readable body");
     let pointer =
         |pointer: &str| json!({ "path": "pointer", "extensions": { "KHR_animation_pointer": { "pointer": pointer } } });

@@ -1,13 +1,16 @@
 //! Bodies that move: they are what the same file gives at each time.
 
 use crate::gltf_bodies::{animated, embedded};
-use crate::support::{ellipsoid, fixture, obj_text};
+use crate::support::{ellipsoid, fixture, obj_text, with};
 use serde_json::{Value, json};
 use toile_files::{BodyOptions, parse_body, parse_moving_body, read_body, read_mesh_sequence, read_moving_body};
 use toile_scene::{Mesh, Motion, MovingMesh};
 
 fn options(clip: &str, time: f64) -> BodyOptions {
-    BodyOptions { clip: Some(clip.into()), time, ..BodyOptions::default() }
+    let mut options = BodyOptions::default();
+    options.clip = Some(clip.into());
+    options.time = time;
+    options
 }
 
 /// Largest distance of two meshes with the same triangles [m].
@@ -151,7 +154,7 @@ fn morphs_joint_sets_and_rigid_nodes_move_as_the_file_says() {
     let (root, bytes) = puppet();
     let file = embedded(root, &bytes);
     for (clip, metres_per_unit) in [("act", 1.0), ("act", 0.5), ("rest", 1.0)] {
-        let options = |time| BodyOptions { metres_per_unit, ..options(clip, time) };
+        let options = |time| with(options(clip, time), |options| options.metres_per_unit = metres_per_unit);
         let moving = parse_moving_body(&file, "a.gltf", &options(0.0)).expect("a readable body").body;
         assert!(most_turned(&moving.at(0.0), &moving.mesh) < 1e-5, "{}", most_turned(&moving.at(0.0), &moving.mesh));
         for time in [0.0, 0.3, 1.0, 1.9, 5.0] {
@@ -267,7 +270,8 @@ fn vertices_of_one_place_that_hang_differently_are_told() {
 fn what_cannot_move_is_refused() {
     let (root, bytes) = animated("LINEAR");
     let message = |root: &Value, clip: Option<&str>| {
-        let options = BodyOptions { clip: clip.map(String::from), ..BodyOptions::default() };
+        let mut options = BodyOptions::default();
+        options.clip = clip.map(String::from);
         parse_moving_body(&embedded(root.clone(), &bytes), "a.gltf", &options).expect_err("a refusal").to_string()
     };
     let mut messages = vec![message(&root, Some("run"))];

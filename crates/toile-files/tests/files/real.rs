@@ -104,7 +104,8 @@ fn the_three_bodies_have_their_documented_counts() {
 fn the_dressing_pose_of_the_walk_is_the_standing_body() {
     let standing = read_body(&real_data().join("bodies/mh_female_apose45.obj"), &BodyOptions::default());
     let standing = standing.expect("a readable body").mesh;
-    let options = BodyOptions { clip: Some("apose_to_walk".into()), ..BodyOptions::default() };
+    let mut options = BodyOptions::default();
+    options.clip = Some("apose_to_walk".into());
     let walker = read_body(&fixture("bodies/walking_woman.glb"), &options).expect("the fixture").mesh;
     let worst = standing
         .positions

@@ -1,6 +1,6 @@
 //! Scene and fabric files.
 
-use crate::support::{ellipsoid, fixture, garment_text, obj_text};
+use crate::support::{ellipsoid, fixture, garment_text, obj_text, with};
 use glam::DVec3;
 use std::fs;
 use std::path::Path;
@@ -82,7 +82,13 @@ fn a_scene_has_wind_only_when_it_says_so() {
     let wind = |text| hang(&[("wind", text)]).scene.settings.wind.expect("wind");
     let plate = Wind::new(DVec3::new(0.5, 0.0, -2.0));
     assert_eq!(wind("{ velocity = [0.5, 0, -2] }"), plate);
-    assert_eq!(wind("{ velocity = [0.5, 0, -2], drag = 1.0, lift = 0 }"), Wind { drag: 1.0, lift: 0.0, ..plate });
+    assert_eq!(
+        wind("{ velocity = [0.5, 0, -2], drag = 1.0, lift = 0 }"),
+        with(plate, |wind| {
+            wind.drag = 1.0;
+            wind.lift = 0.0;
+        })
+    );
     assert_eq!(hang(&[("wind.velocity", "[0.5, 0, -2]")]).scene.settings.wind, Some(plate));
 }
 
@@ -101,7 +107,8 @@ fn a_fabric_is_named_or_differs_from_a_named_one() {
     let named = hang(&[("fabric", "denim")]);
     assert_eq!(Some(&named.scene.settings.fabric), Fabric::preset("denim").as_ref());
     let changed = hang(&[("fabric", "denim"), ("fabric.friction", "0.1")]);
-    let expected = Fabric { friction: 0.1, ..Fabric::preset("denim").expect("a preset") };
+    let mut expected = Fabric::preset("denim").expect("a preset");
+    expected.friction = 0.1;
     assert_eq!(changed.scene.settings.fabric, expected);
 }
 
@@ -121,7 +128,7 @@ fn a_cloth_may_have_a_fabric_of_its_own() {
     let preset = |name: &str| Fabric::preset(name).expect("a preset");
     let fabrics: Vec<Fabric> = scene.fabrics().cloned().collect();
     assert_eq!(fabrics[0], preset("denim"));
-    assert_eq!(fabrics[1], Fabric { friction: 0.1, ..preset("silk") });
+    assert_eq!(fabrics[1], with(preset("silk"), |fabric| fabric.friction = 0.1));
     assert_eq!((&fabrics[2], fabrics[3].thickness), (&preset("denim"), 0.011));
     let own: Vec<bool> = scene.cloths.iter().map(|cloth| cloth.fabric().is_some()).collect();
     assert_eq!(own, [false, true, false, true]);
@@ -141,7 +148,8 @@ fn a_cloth_may_have_a_fabric_of_its_own() {
 fn a_scene_names_any_rule_and_its_sweeps_if_it_cares() {
     for (name, rule) in Rule::ALL {
         for (sweeps, pairs) in [(None, vec![("rule", name)]), (Some(5), vec![("rule", name), ("sweeps", "5")])] {
-            let expected = VelocityModification { sweeps, ..VelocityModification::new(rule) };
+            let mut expected = VelocityModification::new(rule);
+            expected.sweeps = sweeps;
             assert_eq!(hang(&pairs).scene.settings.velocity_modification, expected, "{name}");
         }
     }

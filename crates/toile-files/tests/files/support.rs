@@ -101,3 +101,9 @@ pub fn garment_text() -> String {
      "properties": {"units_in_meter": 100}}"#
         .into()
 }
+
+/// A value with some of its fields set.
+pub fn with<T>(mut value: T, set: impl FnOnce(&mut T)) -> T {
+    set(&mut value);
+    value
+}

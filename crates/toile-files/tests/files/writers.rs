@@ -31,8 +31,8 @@ fn a_glb_is_valid_and_holds_every_mesh() {
         triangles: vec![[0, 1, 2]],
     };
     let meshes = [
-        NamedMesh { name: "body", mesh: &body, colour: [0.8, 0.6, 0.5] },
-        NamedMesh { name: "a \"quoted\" skirt", mesh: &triangle, colour: [0.1, 0.2, 0.3] },
+        NamedMesh::new("body", &body, [0.8, 0.6, 0.5]),
+        NamedMesh::new("a \"quoted\" skirt", &triangle, [0.1, 0.2, 0.3]),
     ];
     write_glb(&path, &meshes).expect("a file");
     let bytes = fs::read(&path).expect("the file");
@@ -77,7 +77,7 @@ fn a_mesh_that_is_not_finite_leaves_no_file() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut mesh = ellipsoid();
     mesh.positions[5].y = f32::NAN;
-    let named = NamedMesh { name: "skirt", mesh: &mesh, colour: [1.0; 3] };
+    let named = NamedMesh::new("skirt", &mesh, [1.0; 3]);
     let glb = write_glb(&folder.path().join("a.glb"), &[named]).expect_err("a refusal").to_string();
     assert!(glb.ends_with("a.glb: position 5 of mesh \"skirt\" is not a finite number"), "{glb}");
     mesh.positions[5].y = 0.0;

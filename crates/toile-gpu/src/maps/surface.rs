@@ -8,6 +8,7 @@ const PART_TEXELS: f32 = 8.0;
 
 /// A triangle mesh on the device, as the maps draw it: a body, or a garment that lies under another one.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Surface {
     /// Positions [m], vec4 each, xyz used; usage `VERTEX | STORAGE`.
     pub positions: wgpu::Buffer,
@@ -19,7 +20,7 @@ pub struct Surface {
     pub indices: wgpu::Buffer,
     /// Number of indices.
     pub index_count: u32,
-    /// Parts of the triangles, each drawn by itself; made by [`Surface::triangle_parts`].
+    /// Parts of the triangles, each drawn by itself.
     pub parts: wgpu::Buffer,
     /// Whether it is open by what it is, as a garment: it bounds no body.
     pub open: bool,
@@ -50,13 +51,31 @@ impl Surface {
         Self { velocities: Some(velocities), ..Self::new(device, mesh, texel) }
     }
 
+    /// A garment that is on the device already, at rest: vertices and indices as the fields say, and no triangle much larger than a texel.
+    pub fn of_cloth(
+        device: &wgpu::Device,
+        [positions, normals, indices]: [&wgpu::Buffer; 3],
+        index_count: u32,
+    ) -> Self {
+        let parts: Vec<[u32; 2]> = (0..index_count / 3).map(|index| [index, 1 << 16]).collect();
+        Self {
+            positions: positions.clone(),
+            normals: normals.clone(),
+            velocities: None,
+            indices: indices.clone(),
+            index_count,
+            parts: Self::parts_of(device, &parts),
+            open: true,
+        }
+    }
+
     pub(crate) fn indices(device: &wgpu::Device, mesh: &Mesh) -> wgpu::Buffer {
         let usage = wgpu::BufferUsages::INDEX | wgpu::BufferUsages::STORAGE;
         create(device, "surface indices", bytemuck::cast_slice(&mesh.triangles), usage)
     }
 
     /// Parts of the triangles of a mesh: of those much larger than a texel several, which take turns at its rows.
-    pub fn triangle_parts(device: &wgpu::Device, mesh: &Mesh, texel: f32) -> wgpu::Buffer {
+    pub(crate) fn triangle_parts(device: &wgpu::Device, mesh: &Mesh, texel: f32) -> wgpu::Buffer {
         let part_count = |triangle: &[u32; 3]| {
             let [a, b, c] = triangle.map(|i| mesh.positions[i as usize]);
             let texels = a.distance(b).max(b.distance(c)).max(c.distance(a)) / texel;
@@ -68,11 +87,6 @@ impl Surface {
             (0..count).map(move |part| [index, part | (count << 16)])
         });
         Self::parts_of(device, &parts.collect::<Vec<[u32; 2]>>())
-    }
-
-    /// Parts of triangles that are all small, one each.
-    pub fn whole_triangles(device: &wgpu::Device, triangle_count: u32) -> wgpu::Buffer {
-        Self::parts_of(device, &(0..triangle_count).map(|index| [index, 1 << 16]).collect::<Vec<_>>())
     }
 
     fn parts_of(device: &wgpu::Device, parts: &[[u32; 2]]) -> wgpu::Buffer {

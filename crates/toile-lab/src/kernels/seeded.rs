@@ -4,7 +4,7 @@ use super::input::Input;
 use super::seeded_bodies::{body, host, maps, place_at_the_edges, place_at_the_sheets, shapes};
 use super::seeded_levels::{BESIDE, levels};
 use crate::fixtures::free_particle;
-use crate::{DrawnMaps, Gpu, Random};
+use crate::{DrawnMaps, Gpu, Random, with};
 use glam::{DVec3, Mat4, Quat, Vec3, Vec4, dvec3, vec3};
 use toile::gpu::GpuError;
 use toile::model::{Arrays, Attachment, Csr, Hold, Limit, Link, NO_CORNER, PinTarget, SeamPair, StepSettings};
@@ -113,25 +113,24 @@ impl Seeds {
             quad_winds: (0..counts.quads).map(|_| random.vector(0.02)).collect(),
             forces: (0..counts.particles).map(|i| force(random, i, &contacts[i as usize])).collect(),
             pulls: pulls(&mut Random::new(!self.seed ^ u64::from(items) ^ 1), counts.particles),
-            model: Arrays {
-                positions: particles.positions.clone(),
-                masses: particles.masses.clone(),
-                links: links(random, counts.particles),
-                attachments: attachments(random, &particles),
-                particle_quads: particle_quads(random, &counts),
-                limits,
-                seam_pairs,
-                inverse_masses: particles.inverse_masses.clone(),
-                coarse_particles: levels.coarse_particles,
-                levels: levels.levels,
-                guard_lengths: levels.clusters.iter().map(|cluster| cluster.max_lengths).collect(),
-                clusters: levels.clusters,
-                leaders: levels.leaders,
-                holds,
-                held_particles,
-                quads,
-                ..Arrays::default()
-            },
+            model: with(Arrays::default(), |arrays| {
+                arrays.positions = particles.positions.clone();
+                arrays.masses = particles.masses.clone();
+                arrays.links = links(random, counts.particles);
+                arrays.attachments = attachments(random, &particles);
+                arrays.particle_quads = particle_quads(random, &counts);
+                arrays.limits = limits;
+                arrays.seam_pairs = seam_pairs;
+                arrays.inverse_masses = particles.inverse_masses.clone();
+                arrays.coarse_particles = levels.coarse_particles;
+                arrays.levels = levels.levels;
+                arrays.guard_lengths = levels.clusters.iter().map(|cluster| cluster.max_lengths).collect();
+                arrays.clusters = levels.clusters;
+                arrays.leaders = levels.leaders;
+                arrays.holds = holds;
+                arrays.held_particles = held_particles;
+                arrays.quads = quads;
+            }),
             span,
             nodes: levels.nodes,
             share: if variant == Variant::Weightless { 1.0 } else { 1.5 },
@@ -248,40 +247,39 @@ fn polish_state(kernel: Kernel, variant: Variant) -> PolishState {
 
 fn step_settings(variant: Variant) -> StepSettings {
     let cotton = Fabric::preset("cotton").expect("cotton is a preset");
-    let base = StepSettings::new(&Settings::new(cotton), &free_particle());
-    let base = StepSettings {
-        dt: 1.0 / 700.0,
-        damping: 0.7,
-        wind: Some(air(WIND, variant)),
-        push_speed: 1.5,
-        pressing: 200.0,
-        sweeps: 1,
-        polish: Some(Polish { target: 0.1, sweeps: 3 }),
-        contact_margin: 1e-3,
-        friction: 0.8,
-        hold_rate: 10.0,
-        hold_speed: 0.5,
-        swept: true,
-        ..base
-    };
+    let mut step = StepSettings::new(&Settings::new(cotton), &free_particle());
+    step.dt = 1.0 / 700.0;
+    step.damping = 0.7;
+    step.wind = Some(air(WIND, variant));
+    step.push_speed = 1.5;
+    step.pressing = 200.0;
+    step.sweeps = 1;
+    step.polish = Some(Polish { target: 0.1, sweeps: 3 });
+    step.contact_margin = 1e-3;
+    step.friction = 0.8;
+    step.hold_rate = 10.0;
+    step.hold_speed = 0.5;
+    step.swept = true;
     match variant {
-        Variant::Coulomb => StepSettings { law: Friction::Coulomb, reflection: 0.0, ..base },
-        Variant::Papers => StepSettings {
-            law: Friction::Papers { velocity_kept: 0.7, force_removed: 0.4 },
-            reflection: 0.3,
-            gravity: vec3(0.3, -9.81, 0.1),
-            wind: Some(air(-4.0 * WIND, variant)),
-            ..base
-        },
-        Variant::Weightless => StepSettings {
-            gravity: Vec3::ZERO,
-            wind: Some(Wind::new(DVec3::ZERO)),
-            law: Friction::Coulomb,
-            reflection: 0.1,
-            swept: false,
-            ..base
-        },
+        Variant::Coulomb => {
+            step.law = Friction::Coulomb;
+            step.reflection = 0.0;
+        }
+        Variant::Papers => {
+            step.law = Friction::Papers { velocity_kept: 0.7, force_removed: 0.4 };
+            step.reflection = 0.3;
+            step.gravity = vec3(0.3, -9.81, 0.1);
+            step.wind = Some(air(-4.0 * WIND, variant));
+        }
+        Variant::Weightless => {
+            step.gravity = Vec3::ZERO;
+            step.wind = Some(Wind::new(DVec3::ZERO));
+            step.law = Friction::Coulomb;
+            step.reflection = 0.1;
+            step.swept = false;
+        }
     }
+    step
 }
 
 /// Air of which every number is other than zero.

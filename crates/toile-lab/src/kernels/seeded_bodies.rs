@@ -2,7 +2,7 @@
 
 use super::input::{Input, Posed};
 use super::seeded::Variant;
-use crate::{DrawnMaps, Gpu, Random};
+use crate::{DrawnMaps, Gpu, Random, with};
 use glam::{Vec3, Vec4, vec3};
 use toile::gpu::{GpuError, MapSpace, Surface};
 use toile::model::{MapBox, ShapeKind, ShapeStep};
@@ -92,13 +92,14 @@ pub(super) fn maps(gpu: &Gpu, moving: bool) -> Result<[DrawnMaps; 2], GpuError> 
         let velocities: Vec<Vec4> = mesh.positions.iter().map(|_| random.vector(2.0).extend(0.0)).collect();
         let usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE;
         let velocities = moving.then(|| gpu.upload(bytemuck::cast_slice(&velocities), usage));
-        Surface { velocities, ..Surface::new(&gpu.device, mesh, TEXEL) }
+        with(Surface::new(&gpu.device, mesh, TEXEL), |surface| surface.velocities = velocities)
     });
-    let [ball, block, sheets] = surfaces;
-    let sheets = Surface { open: true, ..sheets };
-    let space = MapSpace { kind: MapKind::Sides, map_box, moving, area: 6.0 };
+    let [ball, block, mut sheets] = surfaces;
+    sheets.open = true;
+    let mut space = MapSpace::new(MapKind::Sides, map_box, 6.0);
+    space.moving = moving;
     let sides = DrawnMaps::draw_surfaces(gpu, &[(&ball, 0.005), (&block, 0.01)], &space)?;
-    let space = MapSpace { kind: MapKind::Layers, ..space };
+    space.kind = MapKind::Layers;
     let layers = DrawnMaps::draw_surfaces(gpu, &[(&ball, 0.0), (&block, 0.0), (&sheets, 0.0)], &space)?;
     Ok([sides, layers])
 }

@@ -13,6 +13,7 @@ pub struct Model(Arrays);
 
 /// What a model consists of, before anything has looked whether it fits together.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Arrays {
     /// Positions at time 0 [m], shape [particle_count].
     pub positions: Vec<Vec3>,
@@ -203,6 +204,7 @@ pub struct Hold {
 
 /// What a panel became.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct PanelMesh {
     /// Name of the panel or sheet.
     pub name: String,

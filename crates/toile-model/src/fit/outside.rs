@@ -103,7 +103,9 @@ fn turn_over(garment: &mut Garment, number: usize) {
             Curve::Cubic { controls: [first, second] } => Curve::Cubic { controls: [second, first] },
             Curve::Arc { radius, large, right } => Curve::Arc { radius, large, right: !right },
         };
-        Edge { start: panel.edges[(edge + 1) % count].start, curve, label }
+        let mut edge = Edge::new(panel.edges[(edge + 1) % count].start, curve);
+        edge.label = label;
+        edge
     };
     panel.edges = (0..count).rev().map(reversed).collect();
     for side in garment.seams.iter_mut().flat_map(|seam| &mut seam.sides).filter(|side| side.panel == number) {

@@ -29,6 +29,7 @@ const PRESSING: f32 = 200.0;
 
 /// The numbers of one step, the same for every particle.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct StepSettings {
     /// Time step [s].
     pub dt: f32,
@@ -86,7 +87,7 @@ impl StepSettings {
         let frame = 1.0 / settings.frame_rate;
         let bound = model.step_wanted.unwrap_or(f64::INFINITY).min(settings.safety * stable_step(model));
         let steps_per_frame = (frame / bound - 1e-3).ceil().max(1.0);
-        let VelocityModification { rule, sweeps, polish } = settings.velocity_modification;
+        let VelocityModification { rule, sweeps, polish, .. } = settings.velocity_modification;
         let hierarchical = rule == Rule::Hierarchical;
         let tightness = (WIDE / settings.fabric.threshold.least()).round().clamp(1.0, TIGHTNESS_MAX) as u32;
         let further_passes = model.levels.len().saturating_sub(LEVELS_OF_SMALL_CLOTH) as u32;

@@ -50,6 +50,7 @@ pub struct Verdict {
 
 /// A garment as it is when it is judged.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Judged<'a> {
     /// What is worn: [`Piece::model`](crate::Piece::model). Its positions are those where it was placed.
     pub model: &'a Model,
@@ -59,6 +60,13 @@ pub struct Judged<'a> {
     pub velocities: &'a [Vec3],
     /// Whether it came to rest in its time: [`Dressing::is_at_rest`](crate::Dressing::is_at_rest).
     pub is_at_rest: bool,
+}
+
+impl<'a> Judged<'a> {
+    /// A garment with these positions [m] and velocities [m/s], one for each particle.
+    pub fn new(model: &'a Model, positions: &'a [Vec3], velocities: &'a [Vec3], is_at_rest: bool) -> Self {
+        Self { model, positions, velocities, is_at_rest }
+    }
 }
 
 impl Verdict {

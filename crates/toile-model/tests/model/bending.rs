@@ -16,17 +16,7 @@ fn fabric(spacing: f64, bending_rigidity: f64) -> Settings {
 
 /// A sheet of so many cells on a side.
 fn sheet(cells: u32, spacing: f64, bending_rigidity: f64) -> Model {
-    let sheet = Sheet {
-        name: "sheet".into(),
-        columns: cells + 1,
-        rows: cells + 1,
-        size: dvec2(1.0, 1.0) * spacing * f64::from(cells),
-        corner: DVec3::ZERO,
-        right: DVec3::X,
-        down: DVec3::Z,
-        pins: vec![],
-        fabric: None,
-    };
+    let sheet = Sheet::new("sheet", [cells + 1, cells + 1], dvec2(1.0, 1.0) * spacing * f64::from(cells));
     Model::from_sheet(&sheet, &fabric(spacing, bending_rigidity))
 }
 

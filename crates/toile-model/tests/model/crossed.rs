@@ -1,23 +1,14 @@
 //! Cloth on the wrong side of a body.
 
 use crate::support::settings;
-use glam::{DVec3, Vec3, dvec2, dvec3, vec3};
+use glam::{Vec3, dvec2, dvec3, vec3};
 use toile_model::{Model, Solid, crossed_particles};
 use toile_scene::{Mesh, Sheet};
 
 /// A level sheet of 10 × 10 cells of 3 cm around the origin.
 fn sheet() -> Model {
-    let sheet = Sheet {
-        name: "sheet".into(),
-        columns: 11,
-        rows: 11,
-        size: dvec2(0.3, 0.3),
-        corner: dvec3(-0.15, 0.0, -0.15),
-        right: DVec3::X,
-        down: DVec3::Z,
-        pins: vec![],
-        fabric: None,
-    };
+    let mut sheet = Sheet::new("sheet", [11, 11], dvec2(0.3, 0.3));
+    sheet.corner = dvec3(-0.15, 0.0, -0.15);
     Model::from_sheet(&sheet, &settings(0.03))
 }
 

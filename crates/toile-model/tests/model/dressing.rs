@@ -19,7 +19,8 @@ fn dressing_under(rule: Rule) -> Dressing {
     let mut settings = settings(0.05);
     settings.velocity_modification.rule = rule;
     let model = Model::from_garment(&garment, &settings).expect("it meshes");
-    let step = StepSettings { dt: DT, ..StepSettings::new(&settings, &model) };
+    let mut step = StepSettings::new(&settings, &model);
+    step.dt = DT;
     Dressing::new(&model, &step)
 }
 

@@ -12,7 +12,8 @@ fn fixture(path: &str) -> PathBuf {
 }
 
 fn woman(clip: &str) -> MovingMesh {
-    let options = BodyOptions { clip: Some(clip.to_owned()), ..Default::default() };
+    let mut options = BodyOptions::default();
+    options.clip = Some(clip.to_owned());
     read_moving_body(&fixture("bodies/walking_woman.glb"), &options).expect("the fixture").body
 }
 
@@ -21,12 +22,10 @@ fn garment(name: &str) -> Garment {
 }
 
 fn scene(body: Body, garments: &[Garment]) -> Scene {
-    Scene {
-        name: "fit".to_owned(),
-        cloths: garments.iter().cloned().map(Cloth::Garment).collect(),
-        bodies: vec![body],
-        settings: Settings::new(Fabric::preset("cotton").expect("a preset")),
-    }
+    let mut scene = Scene::new("fit", Settings::new(Fabric::preset("cotton").expect("a preset")));
+    scene.cloths = garments.iter().cloned().map(Cloth::Garment).collect();
+    scene.bodies = vec![body];
+    scene
 }
 
 fn fit(body: Body, garments: &[Garment]) -> Result<Fit, FitError> {
@@ -107,10 +106,13 @@ fn a_body_that_the_host_skins_is_not_turned_behind_its_back() {
 fn the_caller_overrules_what_is_seen() {
     let (skirt, body) = (garment("skirt"), woman("apose_to_walk").mesh);
     let turned = scene(Body::Mesh(body.turned(turns()[0])), std::slice::from_ref(&skirt));
-    let options = FitOptions { up: Some(Axis::Y), facing: Some(Axis::Z), ..Default::default() };
+    let mut options = FitOptions::default();
+    options.up = Some(Axis::Y);
+    options.facing = Some(Axis::Z);
     let fit = Fit::new(&turned, &options).expect("it is left");
     assert!(!fit.findings.iter().any(|finding| matches!(finding, Finding::TurnedAbout { .. })), "{}", told(&fit));
-    let options = FitOptions { facing: Some(Axis::X.opposite()), ..Default::default() };
+    let mut options = FitOptions::default();
+    options.facing = Some(Axis::X.opposite());
     let fit = Fit::new(&turned, &options).expect("it is turned the other way");
     assert!(told(&fit).contains("turned the body by 90 degrees about y: it faced -x"), "{}", told(&fit));
 }
@@ -240,14 +242,15 @@ fn drawn_outside_in(garment: &Garment, panels: &[usize]) -> Garment {
     for number in panels {
         let panel = &garment.panels[*number];
         let count = panel.edges.len();
-        let edges = (0..count).rev().map(|edge| Edge {
-            start: panel.edges[(edge + 1) % count].start,
-            curve: match panel.edges[edge].curve {
+        let edges = (0..count).rev().map(|edge| {
+            let curve = match panel.edges[edge].curve {
                 Curve::Cubic { controls: [a, b] } => Curve::Cubic { controls: [b, a] },
                 Curve::Arc { radius, large, right } => Curve::Arc { radius, large, right: !right },
                 curve => curve,
-            },
-            label: panel.edges[edge].label.clone(),
+            };
+            let mut turned = Edge::new(panel.edges[(edge + 1) % count].start, curve);
+            turned.label.clone_from(&panel.edges[edge].label);
+            turned
         });
         turned.panels[*number].edges = edges.collect();
         for side in turned.seams.iter_mut().flat_map(|seam| &mut seam.sides).filter(|side| side.panel == *number) {

@@ -161,8 +161,8 @@ fn a_dart_inside_of_a_panel_is_sewn_shut() {
 #[test]
 fn levels_have_hardly_more_colours_than_they_need() {
     for name in ["skirt", "dress", "shirt_sleeves"] {
-        let settings = Settings::new(Fabric::preset("cotton").expect("a preset"));
-        let settings = Settings { spacing: 0.03, ..settings };
+        let mut settings = Settings::new(Fabric::preset("cotton").expect("a preset"));
+        settings.spacing = 0.03;
         let (model, _) = Model::from_garment(&shipped(name), &settings).expect("it meshes").sewn();
         assert!(model.levels.len() > 3, "{name}");
         for (index, level) in model.levels.iter().enumerate().filter(|(_, level)| level.nodes.len() > 50) {

@@ -14,7 +14,8 @@ fn square() -> Piece {
     let mut settings = settings(0.05);
     settings.velocity_modification.rule = Rule::Hierarchical;
     let cloth = Cloth::Garment(alone(rectangle("a", [0.8, 0.8], 0.0)));
-    let scene = Scene { name: "square".into(), cloths: vec![cloth], bodies: Vec::new(), settings };
+    let mut scene = Scene::new("square", settings);
+    scene.cloths = vec![cloth];
     Piece::all(&scene).expect("it meshes").remove(0)
 }
 

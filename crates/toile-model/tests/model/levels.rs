@@ -18,7 +18,9 @@ fn rest_length(max_length: f32) -> f64 {
 }
 
 fn hierarchical(spacing: f64) -> Settings {
-    Settings { velocity_modification: VelocityModification::new(Rule::Hierarchical), ..settings(spacing) }
+    let mut settings = settings(spacing);
+    settings.velocity_modification = VelocityModification::new(Rule::Hierarchical);
+    settings
 }
 
 fn sheet(columns: u32, rows: u32, pins: Vec<Pin>) -> Model {
@@ -26,17 +28,10 @@ fn sheet(columns: u32, rows: u32, pins: Vec<Pin>) -> Model {
 }
 
 fn sheet_of(columns: u32, rows: u32, pins: Vec<Pin>, settings: &Settings) -> Model {
-    let sheet = Sheet {
-        name: "sheet".into(),
-        size: DVec2::new(f64::from(columns - 1), f64::from(rows - 1)) * 0.01,
-        columns,
-        rows,
-        corner: DVec3::ZERO,
-        right: DVec3::X,
-        down: DVec3::NEG_Y,
-        pins,
-        fabric: None,
-    };
+    let mut sheet =
+        Sheet::new("sheet", [columns, rows], DVec2::new(f64::from(columns - 1), f64::from(rows - 1)) * 0.01);
+    sheet.down = DVec3::NEG_Y;
+    sheet.pins = pins;
     Model::from_sheet(&sheet, settings)
 }
 

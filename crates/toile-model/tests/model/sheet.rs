@@ -1,22 +1,16 @@
 //! Sheets: the grid of D §3.
 
-use crate::support::{alone, check_model, rectangle, settings, spring_count};
+use crate::support::{alone, check_model, rectangle, settings, spring_count, with};
 use glam::{DVec3, Vec3, dvec2, dvec3, vec2};
 use toile_model::{Model, SpringKind};
-use toile_scene::{Fabric, Garment, Pin, Sheet};
+use toile_scene::{Pin, Sheet};
 
 fn sheet(columns: u32, rows: u32) -> Sheet {
-    Sheet {
-        name: "sheet".into(),
-        columns,
-        rows,
-        size: dvec2(0.1 * f64::from(columns - 1), 0.2 * f64::from(rows - 1)),
-        corner: dvec3(-0.5, 2.0, 0.25),
-        right: DVec3::X,
-        down: DVec3::NEG_Y,
-        pins: vec![],
-        fabric: None,
-    }
+    let mut sheet =
+        Sheet::new("sheet", [columns, rows], dvec2(0.1 * f64::from(columns - 1), 0.2 * f64::from(rows - 1)));
+    sheet.corner = dvec3(-0.5, 2.0, 0.25);
+    sheet.down = DVec3::NEG_Y;
+    sheet
 }
 
 fn model(columns: u32, rows: u32) -> Model {
@@ -27,12 +21,14 @@ fn model(columns: u32, rows: u32) -> Model {
 
 #[test]
 fn a_model_has_the_numbers_of_its_own_fabric() {
-    let own = Fabric { areal_density: 0.7, structural_stiffness: 3.0, ..settings(1.0).fabric };
+    let mut own = settings(1.0).fabric;
+    own.areal_density = 0.7;
+    own.structural_stiffness = 3.0;
     let fabric = Some(own.clone());
     let garment = alone(rectangle("panel", [0.2, 0.3], 0.0));
-    let sheets = [sheet(3, 2), Sheet { fabric: fabric.clone(), ..sheet(3, 2) }];
+    let sheets = [sheet(3, 2), with(sheet(3, 2), |sheet| sheet.fabric = fabric.clone())];
     let [default, sheet] = sheets.map(|sheet| Model::from_sheet(&sheet, &settings(1.0)));
-    let garments = [garment.clone(), Garment { fabric, ..garment }];
+    let garments = [garment.clone(), with(garment, |garment| garment.fabric = fabric)];
     let [plain, garment] = garments.map(|garment| Model::from_garment(&garment, &settings(0.05)).expect("it meshes"));
     for (one, other, area) in [(default, sheet, 0.2 * 0.2), (plain, garment, 0.2 * 0.3)] {
         let mass = |model: &Model| f64::from(model.masses.iter().sum::<f32>());

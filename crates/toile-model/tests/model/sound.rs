@@ -3,14 +3,15 @@
 use crate::support::{garment, rectangle, settings};
 use glam::Vec3;
 use toile_model::{Arrays, Model, ModelError, NO_CORNER};
-use toile_scene::{Rule, Settings, VelocityModification};
+use toile_scene::{Rule, VelocityModification};
 
 /// A tube before it is sewn, with levels and seams.
 fn tube() -> Model {
     let mut back = rectangle("back", [0.3, 0.2], -0.2);
     back.edges.reverse();
     let tube = garment(vec![rectangle("front", [0.3, 0.2], 0.2), back], &[([0, 1], [1, 1]), ([0, 3], [1, 3])]);
-    let settings = Settings { velocity_modification: VelocityModification::new(Rule::Hierarchical), ..settings(0.02) };
+    let mut settings = settings(0.02);
+    settings.velocity_modification = VelocityModification::new(Rule::Hierarchical);
     Model::from_garment(&tube, &settings).expect("it meshes")
 }
 

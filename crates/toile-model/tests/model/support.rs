@@ -21,11 +21,11 @@ pub fn polygon(name: &str, points: &[DVec2], depth: f64) -> Panel {
 }
 
 pub fn panel(name: &str, edges: impl IntoIterator<Item = (DVec2, Curve)>, depth: f64) -> Panel {
-    Panel {
-        name: name.into(),
-        edges: edges.into_iter().map(|(start, curve)| Edge { start, curve, label: None }).collect(),
-        placement: Placement { rotation: DQuat::IDENTITY, translation: DVec3::new(0.0, 0.0, depth) },
-    }
+    Panel::new(
+        name,
+        edges.into_iter().map(|(start, curve)| Edge::new(start, curve)).collect(),
+        Placement { rotation: DQuat::IDENTITY, translation: DVec3::new(0.0, 0.0, depth) },
+    )
 }
 
 pub fn rectangle(name: &str, [width, height]: [f64; 2], depth: f64) -> Panel {
@@ -34,12 +34,7 @@ pub fn rectangle(name: &str, [width, height]: [f64; 2], depth: f64) -> Panel {
 
 pub fn garment(panels: Vec<Panel>, seams: &[([usize; 2], [usize; 2])]) -> Garment {
     let side = |[panel, edge]: [usize; 2]| EdgeRef { panel, edge };
-    Garment {
-        name: "garment".into(),
-        panels,
-        seams: seams.iter().map(|&(a, b)| Seam { sides: [side(a), side(b)], right_wrong: false }).collect(),
-        fabric: None,
-    }
+    Garment::new("garment", panels, seams.iter().map(|&(a, b)| Seam::new([side(a), side(b)])).collect())
 }
 
 /// Garment of one panel without seams.
@@ -262,4 +257,10 @@ pub fn topology(model: &Model) -> [i64; 3] {
         pieces(&mut counts.iter().filter(|(_, c)| **c == 1).map(|(&s, _)| s)),
         i64::from(model.particle_count()) - counts.len() as i64 + i64::from(model.quad_count()),
     ]
+}
+
+/// A value with some of its fields set.
+pub fn with<T>(mut value: T, set: impl FnOnce(&mut T)) -> T {
+    set(&mut value);
+    value
 }

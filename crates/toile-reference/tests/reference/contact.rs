@@ -1,8 +1,8 @@
 //! Contact: friction on a plate, the sphere, and which side of a map answers.
 
-use crate::support::{GRAVITY, Grid, changed, settings};
+use crate::support::{GRAVITY, Grid, changed, settings, with};
 use glam::{DQuat, DVec3, Vec3, vec2, vec3};
-use toile_model::{NO_CORNER, ShapeStep, StepSettings};
+use toile_model::{NO_CORNER, ShapeStep};
 use toile_reference::maps::{BodyMaps, Surface};
 use toile_reference::{Colliders, Contact, Lag, Probe, Reference, step};
 use toile_scene::{Form, Friction, MapKind, Mesh, RigidKey, RigidMotion, Rule, Shape, ShapeMotion};
@@ -20,18 +20,16 @@ fn plate() -> BodyMaps {
 /// `degrees`; and its largest distance from the plate [m].
 fn slide(maps: &BodyMaps, degrees: f32, law: Friction) -> (f32, f32, f32) {
     let (sin, cos) = degrees.to_radians().sin_cos();
-    let settings = StepSettings {
-        thickness: 0.0,
-        gravity: vec3(sin, 0.0, -cos) * GRAVITY,
-        law,
-        friction: FRICTION,
-        rule: Rule::Predictive,
-        ..settings()
-    };
+    let mut settings = settings();
+    settings.thickness = 0.0;
+    settings.gravity = vec3(sin, 0.0, -cos) * GRAVITY;
+    settings.law = law;
+    settings.friction = FRICTION;
+    settings.rule = Rule::Predictive;
     let model = Grid { down: Vec3::Y, ..Grid::horizontal(5, 0.02) }.model();
     let model = changed(model, |model| model.positions.iter_mut().for_each(|position| position.z = 0.0));
     let start = model.positions[12].x;
-    let mut reference = Reference::new(&model, &settings, Colliders { maps: Some(maps.clone()), shapes: Vec::new() });
+    let mut reference = Reference::new(&model, &settings, Colliders::new(Some(maps.clone()), Vec::new()));
     let mut off = 0.0_f32;
     for _ in 0..600 {
         reference.step();
@@ -89,8 +87,13 @@ fn the_papers_law_never_sticks() {
 /// Velocity of the cloth after it met the plate at 1 m/s, 2 m/s along it.
 fn pressed(pressing: f32, sweeps: u32) -> Vec3 {
     let maps = plate();
-    let settings =
-        StepSettings { thickness: 0.0, gravity: Vec3::ZERO, friction: FRICTION, pressing, sweeps, ..settings() };
+    let settings = with(settings(), |step| {
+        step.thickness = 0.0;
+        step.gravity = Vec3::ZERO;
+        step.friction = FRICTION;
+        step.pressing = pressing;
+        step.sweeps = sweeps;
+    });
     let model = Grid { down: Vec3::Y, ..Grid::horizontal(2, 0.02) }.model();
     let mut particles = toile_reference::Particles::new(&model);
     particles.positions.iter_mut().for_each(|position| position.z = 0.0);
@@ -118,7 +121,11 @@ fn friction_counts_a_pressure_up_to_its_bound() {
 #[test]
 fn a_rebound_gives_back_its_part_of_the_approach() {
     let maps = plate();
-    let settings = StepSettings { thickness: 0.0, gravity: Vec3::ZERO, reflection: 0.5, friction: 0.0, ..settings() };
+    let mut settings = settings();
+    settings.thickness = 0.0;
+    settings.gravity = Vec3::ZERO;
+    settings.reflection = 0.5;
+    settings.friction = 0.0;
     let model = Grid { down: Vec3::Y, ..Grid::horizontal(2, 0.02) }.model();
     let model = changed(model, |model| model.positions.iter_mut().for_each(|position| position.z = 0.0005));
     let mut probes =
@@ -148,9 +155,13 @@ fn what_a_later_sweep_leads_into_a_shape_meets_it() {
         [0.0, 1.0].map(|time| RigidKey { time, translation: DVec3::NEG_Y * speed * time, rotation: DQuat::IDENTITY });
     let beside = DVec3::new(0.0, f64::from(far.y) + 0.02 + 0.0011, 0.0);
     let motion = ShapeMotion::Keys(RigidMotion { keys: keys.to_vec() });
-    let striker = Shape { motion, ..Shape::sphere(beside, 0.02) };
-    let settings = StepSettings { gravity: Vec3::ZERO, rule: Rule::Predictive, sweeps: 2, ..settings() };
-    let mut reference = Reference::new(&model, &settings, Colliders { maps: None, shapes: vec![ball, striker] });
+    let mut striker = Shape::sphere(beside, 0.02);
+    striker.motion = motion;
+    let mut settings = settings();
+    settings.gravity = Vec3::ZERO;
+    settings.rule = Rule::Predictive;
+    settings.sweeps = 2;
+    let mut reference = Reference::new(&model, &settings, Colliders::new(None, vec![ball, striker]));
     reference.step();
     assert!(reference.velocities()[1].y < -1.0, "it is struck: {}", reference.velocities()[1]);
     let clearance = reference.positions()[0].y - 0.05 - settings.thickness;
@@ -160,7 +171,8 @@ fn what_a_later_sweep_leads_into_a_shape_meets_it() {
 #[test]
 fn a_colliding_midpoint_stops_its_corners_and_pushes_none_away() {
     let model = Grid::horizontal(2, 0.02).model();
-    let settings = StepSettings { friction: 0.0, ..settings() };
+    let mut settings = settings();
+    settings.friction = 0.0;
     let mut particles = toile_reference::Particles::new(&model);
     // One corner falls, one rises: the midpoint falls.
     particles.velocities = vec![vec3(0.0, -1.0, 0.0), vec3(0.0, 0.4, 0.0), Vec3::ZERO, Vec3::ZERO];
@@ -178,7 +190,8 @@ fn a_colliding_midpoint_stops_its_corners_and_pushes_none_away() {
 #[test]
 fn the_nearer_side_of_the_plate_answers() {
     let maps = plate();
-    let settings = StepSettings { thickness: 0.0, ..settings() };
+    let mut settings = settings();
+    settings.thickness = 0.0;
     // Farther out than the reach of four texels of the plate's maps nothing answers.
     let points = [-0.01, -0.09, 0.1, -0.2].map(|z| vec3(0.203, 0.104, z));
     let probes = step::sample_body_maps(&points, &[Vec3::ZERO; 4], &maps, Lag::default(), &settings);
@@ -195,10 +208,15 @@ fn the_nearer_side_of_the_plate_answers() {
 ///
 /// The cloth strikes at 1 m/s, 1.7 mm per step; its own contact has the last word, so it keeps its thickness of 1 mm all the same.
 fn sphere_clearance(motion: ShapeMotion, reach: f32) -> f32 {
-    let sphere = Shape { motion, ..Shape::sphere(DVec3::new(0.0, -0.25, 0.0), 0.2) };
-    let settings = StepSettings { dt: 1.0 / 600.0, rule: Rule::Predictive, sweeps: 2, damping: 0.5, ..settings() };
+    let mut sphere = Shape::sphere(DVec3::new(0.0, -0.25, 0.0), 0.2);
+    sphere.motion = motion;
+    let mut settings = settings();
+    settings.dt = 1.0 / 600.0;
+    settings.rule = Rule::Predictive;
+    settings.sweeps = 2;
+    settings.damping = 0.5;
     let model = Grid::horizontal(21, 0.03).model();
-    let colliders = Colliders { maps: None, shapes: vec![sphere.clone()] };
+    let colliders = Colliders::new(None, vec![sphere.clone()]);
     let mut reference = Reference::new(&model, &settings, colliders);
     let mut touched = 0;
     let mut clearance = f32::INFINITY;
@@ -235,11 +253,14 @@ fn the_oracle_of_the_sphere_sees_a_larger_one() {
 
 /// By how much the direction is wrong in which a capsule meets points that it passes at 100 m/s within one step.
 fn capsule_error(swept: bool) -> f32 {
-    let settings = StepSettings { dt: 1.0 / 60.0, swept, thickness: 0.0, ..settings() };
+    let mut settings = settings();
+    settings.dt = 1.0 / 60.0;
+    settings.swept = swept;
+    settings.thickness = 0.0;
     let swing = ShapeMotion::Swing { amplitude: DVec3::Z * 2.0, period: 4.0 / 60.0 };
     let ends = [DVec3::new(-0.4, 0.0, -0.2), DVec3::new(0.4, 0.1, -0.2)];
     let radius = 0.05;
-    let capsule = ShapeStep::of(&Shape { motion: swing, ..Shape::capsule(ends, radius) }, 0, &settings);
+    let capsule = ShapeStep::of(&with(Shape::capsule(ends, radius), |shape| shape.motion = swing), 0, &settings);
     let [a, b] = [capsule.centre - capsule.axis, capsule.centre + capsule.axis].map(|end| end.truncate());
     // From beside one end to beside the other, and from the line outward.
     let places =
@@ -267,13 +288,18 @@ fn a_fast_capsule_meets_points_where_it_first_touches_them() {
 /// A box that is turned, with edges of this radius [m], whose upmost corner or edge is at about this height.
 fn turned_box(radius: f64, motion: ShapeMotion) -> Shape {
     let rotation = DQuat::from_rotation_z(0.7) * DQuat::from_rotation_x(0.5);
-    let form = Form::Box { half_size: DVec3::new(0.2, 0.12, 0.25), rotation, radius };
-    Shape { form, centre: DVec3::new(0.0, -0.35, 0.0), motion }
+    let half_size = DVec3::new(0.2, 0.12, 0.25);
+    let mut shape = Shape::cuboid(DVec3::new(0.0, -0.35, 0.0), 2.0 * half_size, radius);
+    shape.form = Form::Box { half_size, rotation, radius };
+    shape.motion = motion;
+    shape
 }
 
 /// By how much [m] the planes that a box tells of points around it are off its exact distance, within and outside.
 fn box_error(shape: &Shape, thickness: f32) -> f64 {
-    let settings = StepSettings { thickness, swept: false, ..settings() };
+    let mut settings = settings();
+    settings.thickness = thickness;
+    settings.swept = false;
     let told = ShapeStep::of(shape, 0, &settings);
     let places = (0..4000).map(|k| {
         let place = |k: u32, base: u32| {
@@ -318,7 +344,10 @@ fn a_box_is_as_far_away_as_it_is() {
 
 /// How far [m] from the surface of a box the planes touch it that points tell which pass through it within one step.
 fn entry_error(swept: bool) -> f64 {
-    let settings = StepSettings { dt: 1.0 / 60.0, swept, thickness: 0.0, ..settings() };
+    let mut settings = settings();
+    settings.dt = 1.0 / 60.0;
+    settings.swept = swept;
+    settings.thickness = 0.0;
     let shape = turned_box(0.04, ShapeMotion::Still);
     let told = ShapeStep::of(&shape, 0, &settings);
     let mut worst: f64 = 0.0;
@@ -348,9 +377,13 @@ fn a_fast_point_meets_a_box_where_it_first_touches_it() {
 
 /// How many particles of a sheet of n × n touch a shape at once, and how deep one is in it at most [m], in so many steps after it was let go.
 fn dropped_on(shape: &Shape, n: u32, step_count: u32) -> (usize, f64) {
-    let settings = StepSettings { dt: 1.0 / 600.0, rule: Rule::Predictive, sweeps: 2, damping: 0.5, ..settings() };
+    let mut settings = settings();
+    settings.dt = 1.0 / 600.0;
+    settings.rule = Rule::Predictive;
+    settings.sweeps = 2;
+    settings.damping = 0.5;
     let model = Grid::horizontal(n, 0.03).model();
-    let mut reference = Reference::new(&model, &settings, Colliders { maps: None, shapes: vec![shape.clone()] });
+    let mut reference = Reference::new(&model, &settings, Colliders::new(None, vec![shape.clone()]));
     let (mut touched, mut deepest) = (0, f64::NEG_INFINITY);
     for step in 1..=step_count {
         reference.step();
@@ -386,7 +419,8 @@ fn a_sheet_dropped_on_a_capsule_stays_outside() {
 #[test]
 fn a_sheet_that_falls_on_a_plane_that_swings_stays_above_it() {
     let swing = ShapeMotion::Swing { amplitude: DVec3::new(0.0, 0.1, 0.0), period: 0.5 };
-    let plane = Shape { motion: swing, ..Shape::plane(DVec3::new(0.0, -0.2, 0.0), DVec3::new(0.1, 1.0, 0.0)) };
+    let mut plane = Shape::plane(DVec3::new(0.0, -0.2, 0.0), DVec3::new(0.1, 1.0, 0.0));
+    plane.motion = swing;
     let (touched, deepest) = dropped_on(&plane, 9, 300);
     assert!(touched > 40, "{touched} particles touched the plane");
     assert!(deepest < 0.0, "{deepest} m deep");

@@ -1,6 +1,6 @@
 //! Free fall and momentum: what a rule does to a cloth that nothing holds.
 
-use crate::support::{Grid, Parts, Random, THRESHOLD, centre, changed, momentum, momentum_scale, settings};
+use crate::support::{Grid, Parts, Random, THRESHOLD, centre, changed, momentum, momentum_scale, settings, with};
 use glam::{DVec3, Vec3};
 use toile_model::{Model, Spring, SpringKind, StepSettings};
 use toile_reference::{Colliders, Particles, Reference, limits, step};
@@ -37,7 +37,7 @@ fn free_fall_error(model: &Model, settings: &StepSettings) -> f64 {
 fn a_relaxed_sheet_falls_freely_under_every_rule() {
     let model = Grid::horizontal(8, 0.02).model();
     for (_, rule) in Rule::ALL {
-        let error = free_fall_error(&model, &StepSettings { rule, ..settings() });
+        let error = free_fall_error(&model, &with(settings(), |step| step.rule = rule));
         assert!(error < ROUNDING, "{rule:?}: {error}");
     }
 }
@@ -46,7 +46,7 @@ fn a_relaxed_sheet_falls_freely_under_every_rule() {
 fn a_stretched_sheet_falls_freely_under_the_rules_that_keep_momentum() {
     let model = stretched_sheet();
     for rule in [Rule::None, Rule::Average, Rule::Position, Rule::Predictive, Rule::Hierarchical] {
-        let error = free_fall_error(&model, &StepSettings { rule, ..settings() });
+        let error = free_fall_error(&model, &with(settings(), |step| step.rule = rule));
         assert!(error < ROUNDING, "{rule:?}: {error}");
     }
 }
@@ -55,7 +55,7 @@ fn a_stretched_sheet_falls_freely_under_the_rules_that_keep_momentum() {
 fn the_zero_rule_brakes_and_the_directional_rule_disturbs_the_fall_of_a_stretched_sheet() {
     let model = stretched_sheet();
     for rule in [Rule::Zero, Rule::Directional] {
-        let error = free_fall_error(&model, &StepSettings { rule, ..settings() });
+        let error = free_fall_error(&model, &with(settings(), |step| step.rule = rule));
         assert!(error > 1e-3, "{rule:?}: {error}");
     }
 }
@@ -63,7 +63,8 @@ fn the_zero_rule_brakes_and_the_directional_rule_disturbs_the_fall_of_a_stretche
 #[test]
 fn the_oracle_of_free_fall_sees_a_flipped_sign() {
     let model = stretched_sheet();
-    let upwards = StepSettings { gravity: Vec3::new(0.0, 9.81, 0.0), ..settings() };
+    let mut upwards = settings();
+    upwards.gravity = Vec3::new(0.0, 9.81, 0.0);
     assert!(free_fall_error(&model, &upwards) > 1.0);
 }
 
@@ -115,13 +116,17 @@ fn average_and_predictive_keep_momentum() {
     });
     assert!(acted && error < 1e-6, "predictive {error}");
     let (model, before) = blob();
-    let settings = StepSettings { dt: 0.01, ..settings() };
+    let mut settings = settings();
+    settings.dt = 0.01;
     let mut after = before.clone();
     let mut pulls = vec![Vec3::ZERO; 200];
     limits::sweep(
         &mut after,
         &model,
-        &StepSettings { rule: Rule::Hierarchical, sweeps: 1, ..settings.clone() },
+        &with(settings.clone(), |step| {
+            step.rule = Rule::Hierarchical;
+            step.sweeps = 1;
+        }),
         None,
         &mut pulls,
     );

@@ -1,8 +1,7 @@
 //! Where the guard ends: a body, at the depth of the cloth's thickness.
 
-use crate::support::{Grid, settings};
+use crate::support::{Grid, settings, with};
 use glam::Vec3;
-use toile_model::StepSettings;
 use toile_reference::{Particles, Probe, step};
 
 /// Thickness of the cloth [m].
@@ -14,7 +13,14 @@ fn kept_out(velocity: Vec3, inverse_mass: f32, probe: Probe) -> Vec3 {
     let mut particles = Particles::new(&model);
     particles.velocities[0] = velocity;
     particles.inverse_masses[0] = inverse_mass;
-    step::keep_out(&mut particles, &[probe], &StepSettings { dt: 0.01, thickness: THICKNESS, ..settings() });
+    step::keep_out(
+        &mut particles,
+        &[probe],
+        &with(settings(), |step| {
+            step.dt = 0.01;
+            step.thickness = THICKNESS;
+        }),
+    );
     particles.velocities[0]
 }
 

@@ -10,17 +10,9 @@ use toile_scene::{Fabric, Pin, Rule, Settings, Sheet, VelocityModification};
 fn torn(pins: Vec<Pin>) -> (Model, StepSettings, Particles) {
     let mut settings = Settings::new(Fabric::preset("cotton").expect("cotton is a preset"));
     settings.velocity_modification = VelocityModification::new(Rule::Hierarchical);
-    let sheet = Sheet {
-        name: "sheet".into(),
-        size: DVec2::splat(0.32),
-        columns: 33,
-        rows: 33,
-        corner: DVec3::ZERO,
-        right: DVec3::X,
-        down: DVec3::NEG_Y,
-        pins,
-        fabric: None,
-    };
+    let mut sheet = Sheet::new("sheet", [33, 33], DVec2::splat(0.32));
+    sheet.down = DVec3::NEG_Y;
+    sheet.pins = pins;
     let model = Model::from_sheet(&sheet, &settings);
     let step = StepSettings::new(&settings, &model);
     let mut particles = Particles::new(&model);

@@ -2,14 +2,15 @@
 
 use crate::support::{Grid, settings};
 use glam::DVec3;
-use toile_model::StepSettings;
 use toile_reference::{Colliders, Reference};
 use toile_scene::{Rule, Shape};
 
 fn draped() -> Reference {
     let sphere = Shape::sphere(DVec3::new(0.0, -0.11, 0.0), 0.1);
-    let settings = StepSettings { rule: Rule::Predictive, sweeps: 2, ..settings() };
-    let colliders = Colliders { maps: None, shapes: vec![sphere] };
+    let mut settings = settings();
+    settings.rule = Rule::Predictive;
+    settings.sweeps = 2;
+    let colliders = Colliders::new(None, vec![sphere]);
     let mut reference = Reference::new(&Grid::horizontal(16, 0.02).model(), &settings, colliders);
     for _ in 0..20 {
         reference.frame();

@@ -2,7 +2,6 @@
 
 use crate::support::{Grid, settings};
 use glam::{DVec3, Vec3};
-use toile_model::StepSettings;
 use toile_reference::{Colliders, Particles, Reference, limits, step};
 use toile_scene::{Rule, Shape};
 
@@ -18,7 +17,9 @@ fn guarded(start: f32, end: f32, share: f32) -> f32 {
     let mut particles = Particles::new(&model);
     particles.positions = vec![Vec3::ZERO, start * Vec3::X];
     particles.velocities[1] = (end - start) / DT * Vec3::X;
-    let settings = StepSettings { dt: DT, thickness: 2.0 * WAY, ..settings() };
+    let mut settings = settings();
+    settings.dt = DT;
+    settings.thickness = 2.0 * WAY;
     step::limit_guard(&mut particles, &model, &model.levels[0].colours[0], share, &settings);
     step::move_particles(&mut particles.positions, &particles.velocities, DT);
     particles.positions[0].distance(particles.positions[1])
@@ -43,7 +44,10 @@ fn a_taut_line_shares_what_is_left_among_its_springs() {
     let mut particles = Particles::new(&model);
     let end = |i: usize| (1.1 * i as f32 + 0.02 * i.div_ceil(2) as f32) * Vec3::X;
     particles.positions = (0..34).map(end).collect();
-    let settings = StepSettings { dt: DT, thickness: 1.0, rule: Rule::Hierarchical, ..settings() };
+    let mut settings = settings();
+    settings.dt = DT;
+    settings.thickness = 1.0;
+    settings.rule = Rule::Hierarchical;
     limits::guard(&mut particles, &model, &settings, &[]);
     step::move_particles(&mut particles.positions, &particles.velocities, DT);
     let excess = |ends: &[Vec3]| ends[0].distance(ends[1]) - 1.1;
@@ -60,8 +64,11 @@ fn on_a_ball(rule: Rule, stretch: f64) -> (f32, f32) {
     let rise = 0.02 * ((1.0 + stretch).powi(2) - 1.0).sqrt();
     let centre = DVec3::new(0.0, rise - 0.051, model.positions[1].z.into());
     let sphere = Shape::sphere(centre, 0.05);
-    let settings = StepSettings { rule, sweeps: 3, damping: 2.0, ..settings() };
-    let mut reference = Reference::new(&model, &settings, Colliders { maps: None, shapes: vec![sphere] });
+    let mut settings = settings();
+    settings.rule = rule;
+    settings.sweeps = 3;
+    settings.damping = 2.0;
+    let mut reference = Reference::new(&model, &settings, Colliders::new(None, vec![sphere]));
     (0..600).for_each(|_| reference.step());
     let middle = reference.positions()[1];
     let elongation =

@@ -1,8 +1,8 @@
 //! Each rule on a single limit.
 
-use crate::support::{Parts, THRESHOLD, settings};
+use crate::support::{Parts, THRESHOLD, settings, with};
 use glam::{Vec3, vec3};
-use toile_model::{Limit, Spring, SpringKind, StepSettings};
+use toile_model::{Limit, Spring, SpringKind};
 use toile_reference::{Contact, Particles, step};
 
 const DT: f32 = 0.01;
@@ -83,7 +83,7 @@ fn directional_averages_across_gravity_and_without_it() {
     for gravity in [Vec3::X, Vec3::ZERO, vec3(1.0, 0.3, 0.0)] {
         let (mut directional, limits) = pair(&[]);
         let mut average = directional.clone();
-        step::limit_directional(&mut directional, &limits, None, &StepSettings { gravity, ..settings() });
+        step::limit_directional(&mut directional, &limits, None, &with(settings(), |step| step.gravity = gravity));
         step::limit_average(&mut average, &limits);
         assert_eq!(directional, average);
     }

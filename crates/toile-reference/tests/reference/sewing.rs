@@ -1,8 +1,8 @@
 //! Sewing: seams that close, edges that are held, and the handover.
 
-use crate::support::{Grid, Parts, THRESHOLD, changed, momentum, settings};
+use crate::support::{Grid, Parts, THRESHOLD, changed, momentum, settings, with};
 use glam::{Vec3, vec3};
-use toile_model::{Csr, Hold, Merge, Model, SeamPair, Spring, SpringKind, StepSettings};
+use toile_model::{Csr, Hold, Merge, Model, SeamPair, Spring, SpringKind};
 use toile_reference::{Colliders, Particles, Reference, frame, step};
 use toile_scene::Rule;
 
@@ -23,7 +23,9 @@ fn two_particles() -> Model {
 /// limits that answer once the seams were drawn.
 #[test]
 fn a_corner_of_two_seams_closes_at_its_speed() {
-    let settings = StepSettings { gravity: Vec3::ZERO, rule: Rule::Predictive, ..settings() };
+    let mut settings = settings();
+    settings.gravity = Vec3::ZERO;
+    settings.rule = Rule::Predictive;
     let (gap, beside) = (0.04, Vec3::Y * 1e-9);
     let [near, far, pin] = [0.0, gap, 10.0].map(|x| Vec3::X * x);
     // Over-long by what 2 m/s do in a step.
@@ -57,7 +59,8 @@ fn a_corner_of_two_seams_closes_at_its_speed() {
 
 #[test]
 fn a_seam_closes_at_its_speed_and_stays_closed() {
-    let settings = StepSettings { gravity: Vec3::ZERO, ..settings() };
+    let mut settings = settings();
+    settings.gravity = Vec3::ZERO;
     let mut reference = Reference::new(&two_particles(), &settings, Colliders::default());
     for k in 1..=200 {
         reference.step();
@@ -82,8 +85,12 @@ fn a_seam_that_a_tight_fit_holds_open_closes_all_the_same() {
     }
     .model();
     let model = with_seam(model, SeamPair { ends: [1, 2], closing_speed: 0.2, seam: 0 });
-    let settings =
-        StepSettings { gravity: Vec3::ZERO, damping: 5.0, rule: Rule::Hierarchical, sweeps: 3, ..settings() };
+    let settings = with(settings(), |step| {
+        step.gravity = Vec3::ZERO;
+        step.damping = 5.0;
+        step.rule = Rule::Hierarchical;
+        step.sweeps = 3;
+    });
     let mut reference = Reference::new(&model, &settings, Colliders::default());
     (0..600).for_each(|_| reference.step());
     let gap = reference.status().seam_gap_max;
@@ -134,7 +141,8 @@ fn the_handover_keeps_momentum_and_the_centre_of_mass() {
 
 #[test]
 fn a_sewn_reference_goes_on_where_the_open_one_stopped() {
-    let settings = StepSettings { gravity: Vec3::ZERO, ..settings() };
+    let mut settings = settings();
+    settings.gravity = Vec3::ZERO;
     let mut open = Reference::new(&two_particles(), &settings, Colliders::default());
     for _ in 0..200 {
         open.step();

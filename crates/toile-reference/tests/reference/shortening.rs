@@ -15,34 +15,24 @@ const GATHERED: f32 = 0.7;
 
 /// Limits of one length under both rules: hierarchical ones aim at three fifths of the threshold.
 fn curtain(rule: Rule) -> (Model, StepSettings) {
-    let fabric = Fabric {
-        name: "curtain".to_owned(),
-        areal_density: 0.2,
-        structural_stiffness: 20.0,
-        shear_stiffness: 10.0,
-        bend_stiffness: 2.0,
-        bending_rigidity: 0.0,
-        damping: 4.0,
-        thickness: 0.005,
-        friction: 0.3,
-        threshold: Threshold::even(if rule == Rule::Hierarchical { 0.05 } else { 0.03 }),
-    };
+    let mut fabric = Fabric::preset("cotton").expect("a preset");
+    fabric.name = "curtain".to_owned();
+    fabric.areal_density = 0.2;
+    fabric.structural_stiffness = 20.0;
+    fabric.shear_stiffness = 10.0;
+    fabric.bend_stiffness = 2.0;
+    fabric.bending_rigidity = 0.0;
+    fabric.damping = 4.0;
+    fabric.thickness = 0.005;
+    fabric.friction = 0.3;
+    fabric.threshold = Threshold::even(if rule == Rule::Hierarchical { 0.05 } else { 0.03 });
     let sweeps = if rule == Rule::Hierarchical { 4 } else { 16 };
-    let settings = Settings {
-        velocity_modification: VelocityModification { sweeps: Some(sweeps), ..VelocityModification::new(rule) },
-        ..Settings::new(fabric)
-    };
-    let sheet = Sheet {
-        name: "curtain".to_owned(),
-        columns: N,
-        rows: N,
-        size: DVec2::splat(0.4),
-        corner: DVec3::ZERO,
-        right: DVec3::X,
-        down: DVec3::NEG_Y,
-        pins: (0..N).step_by(SWAG as usize).map(|column| Pin { column, row: 0 }).collect(),
-        fabric: None,
-    };
+    let mut settings = Settings::new(fabric);
+    settings.velocity_modification = VelocityModification::new(rule);
+    settings.velocity_modification.sweeps = Some(sweeps);
+    let mut sheet = Sheet::new("curtain", [N, N], DVec2::splat(0.4));
+    sheet.down = DVec3::NEG_Y;
+    sheet.pins = (0..N).step_by(SWAG as usize).map(|column| Pin { column, row: 0 }).collect();
     let model = changed(Model::from_sheet(&sheet, &settings), |model| {
         for (position, i) in model.positions.iter_mut().zip(0..) {
             // One fold to the front, the next to the back.

@@ -2,7 +2,7 @@
 
 use crate::support::{GRAVITY, Grid, changed, settings};
 use glam::{DVec3, Vec3};
-use toile_model::{Model, StepSettings};
+use toile_model::Model;
 use toile_reference::{Colliders, Reference};
 use toile_scene::{Rule, Shape};
 
@@ -11,8 +11,9 @@ fn pinned_particles_stay_where_they_are() {
     let sphere = Shape::sphere(DVec3::new(0.0, -0.05, 0.0), 0.06);
     for rule in [Rule::None, Rule::Predictive, Rule::Position] {
         let model = Grid { pins: vec![0, 24, 40], ..Grid::horizontal(9, 0.02) }.model();
-        let settings = StepSettings { rule, ..settings() };
-        let colliders = Colliders { maps: None, shapes: vec![sphere.clone()] };
+        let mut settings = settings();
+        settings.rule = rule;
+        let colliders = Colliders::new(None, vec![sphere.clone()]);
         let mut reference = Reference::new(&model, &settings, colliders);
         for _ in 0..300 {
             reference.step();
@@ -42,7 +43,8 @@ fn strip() -> Model {
 /// Largest difference of a spring's elongation from (weight below)/(stiffness·rest length), in parts of that of the top
 /// spring, w·L/k.
 fn strip_error(model: &Model) -> f32 {
-    let settings = StepSettings { damping: 4.0, ..settings() };
+    let mut settings = settings();
+    settings.damping = 4.0;
     let mut reference = Reference::new(model, &settings, Colliders::default());
     for _ in 0..12_000 {
         reference.step();

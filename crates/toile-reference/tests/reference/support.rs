@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use std::ops::Range;
 use toile_model::{Arrays, Cluster, Csr, Level, Limit, Link, Model, NO_CORNER, Spring, SpringKind, StepSettings};
 use toile_reference::Particles;
-use toile_scene::{Friction, Rule};
+use toile_scene::{Fabric, Friction, Rule, Settings};
 
 /// Elongation that the limits of the test cloth allow.
 pub const THRESHOLD: f32 = 0.05;
@@ -13,29 +13,30 @@ pub const THRESHOLD: f32 = 0.05;
 pub const GRAVITY: f32 = 9.81;
 
 pub fn settings() -> StepSettings {
-    StepSettings {
-        dt: 1.0 / 600.0,
-        steps_per_frame: 10,
-        gravity: Vec3::new(0.0, -GRAVITY, 0.0),
-        wind: None,
-        damping: 0.0,
-        thickness: 1e-3,
-        push_speed: 0.2,
-        pressing: f32::INFINITY,
-        contact_margin: 1e-4,
-        reflection: 0.0,
-        law: Friction::Coulomb,
-        friction: 0.3,
-        hold_rate: 10.0,
-        hold_speed: 0.5,
-        rule: Rule::None,
-        sweeps: 1,
-        limit_passes: 1,
-        coarse_passes: 1,
-        guard_passes: 2,
-        polish: None,
-        swept: true,
-    }
+    let particle = Model::new(Arrays::of_particles(vec![Vec3::ZERO], vec![1.0])).expect("a particle is a model");
+    let mut step = StepSettings::new(&Settings::new(Fabric::preset("cotton").expect("a preset")), &particle);
+    step.dt = 1.0 / 600.0;
+    step.steps_per_frame = 10;
+    step.gravity = Vec3::new(0.0, -GRAVITY, 0.0);
+    step.wind = None;
+    step.damping = 0.0;
+    step.thickness = 1e-3;
+    step.push_speed = 0.2;
+    step.pressing = f32::INFINITY;
+    step.contact_margin = 1e-4;
+    step.reflection = 0.0;
+    step.law = Friction::Coulomb;
+    step.friction = 0.3;
+    step.hold_rate = 10.0;
+    step.hold_speed = 0.5;
+    step.rule = Rule::None;
+    step.sweeps = 1;
+    step.limit_passes = 1;
+    step.coarse_passes = 1;
+    step.guard_passes = 2;
+    step.polish = None;
+    step.swept = true;
+    step
 }
 
 /// What a model is made of before its arrays are derived.
@@ -77,28 +78,31 @@ impl Parts {
             nodes: [limit.ends[0], limit.ends[1], NO_CORNER, NO_CORNER],
             max_lengths: lengths(limit.max_length),
         };
-        Model::new(Arrays {
-            flat: vec![Vec2::ZERO; count],
-            links: Csr::from_rows(links),
-            particle_quads: Csr::from_rows(particle_quads),
-            inverse_masses: (0..count)
-                .map(|i| if self.pins.contains(&i) { 0.0 } else { 1.0 / self.masses[i] })
-                .collect(),
-            positions: self.positions,
-            masses: self.masses,
-            springs: self.springs,
-            quads: self.quads,
-            levels: vec![Level { nodes: 0..count as u32, colours: limit_colours.clone() }],
-            clusters: limits.iter().map(cluster).collect(),
-            guard_lengths: limits.iter().map(|limit| lengths(2.0 * limit.max_length - limit.rest_length)).collect(),
-            leaders: Csr::from_rows((0..count).map(|_| [])),
-            limits,
-            limit_colours,
-            attachments: Csr::from_rows((0..count).map(|_| [])),
-            ..Arrays::default()
-        })
-        .expect("parts that fit together")
+        let mut arrays = Arrays::default();
+        arrays.flat = vec![Vec2::ZERO; count];
+        arrays.links = Csr::from_rows(links);
+        arrays.particle_quads = Csr::from_rows(particle_quads);
+        arrays.inverse_masses =
+            (0..count).map(|i| if self.pins.contains(&i) { 0.0 } else { 1.0 / self.masses[i] }).collect();
+        arrays.positions = self.positions;
+        arrays.masses = self.masses;
+        arrays.springs = self.springs;
+        arrays.quads = self.quads;
+        arrays.levels = vec![Level { nodes: 0..count as u32, colours: limit_colours.clone() }];
+        arrays.clusters = limits.iter().map(cluster).collect();
+        arrays.guard_lengths = limits.iter().map(|limit| lengths(2.0 * limit.max_length - limit.rest_length)).collect();
+        arrays.leaders = Csr::from_rows((0..count).map(|_| []));
+        arrays.limits = limits;
+        arrays.limit_colours = limit_colours;
+        arrays.attachments = Csr::from_rows((0..count).map(|_| []));
+        Model::new(arrays).expect("parts that fit together")
     }
+}
+
+/// A value with some of its fields set.
+pub fn with<T>(mut value: T, set: impl FnOnce(&mut T)) -> T {
+    set(&mut value);
+    value
 }
 
 /// A model of changed arrays, which still fit together.

@@ -1,6 +1,6 @@
 //! The step that is chosen from the springs: stable for long at the bound itself, and not far below what the springs allow.
 
-use crate::support::{Grid, Parts, Random, changed, settings};
+use crate::support::{Grid, Parts, Random, changed, settings, with};
 use glam::{DVec3, Vec3, vec3};
 use toile_files::parse_garment;
 use toile_model::{Link, Model, Spring, SpringKind, StepSettings};
@@ -11,14 +11,27 @@ const STEPS: u32 = 100_000;
 
 fn cotton() -> Settings {
     let settings = Settings::new(Fabric::preset("cotton").expect("a preset"));
-    Settings { velocity_modification: VelocityModification::new(Rule::None), spacing: 0.1, ..settings }
+    let mut changed = settings;
+    changed.velocity_modification = VelocityModification::new(Rule::None);
+    changed.spacing = 0.1;
+    changed
 }
 
 /// The step at the bound, without safety, and nothing that would take energy away.
 fn at_bound(model: &Model) -> StepSettings {
     // A frame of a thousand seconds, so that cutting it into whole steps changes nothing.
-    let step = StepSettings::new(&Settings { safety: 1.0, frame_rate: 1e-3, ..cotton() }, model);
-    StepSettings { dt: step.dt, gravity: Vec3::ZERO, damping: 0.0, ..settings() }
+    let step = StepSettings::new(
+        &with(cotton(), |settings| {
+            settings.safety = 1.0;
+            settings.frame_rate = 1e-3;
+        }),
+        model,
+    );
+    let mut changed = settings();
+    changed.dt = step.dt;
+    changed.gravity = Vec3::ZERO;
+    changed.damping = 0.0;
+    changed
 }
 
 /// Elastic energy [J].
@@ -79,8 +92,9 @@ fn skirt(heavy: f32) -> Model {
         }
     });
     let (sewn, _) = open.sewn();
-    let step = at_bound(&sewn);
-    let damped = StepSettings { dt: 0.5 * step.dt, damping: 5.0, ..step };
+    let mut damped = at_bound(&sewn);
+    damped.dt *= 0.5;
+    damped.damping = 5.0;
     let mut reference = Reference::new(&sewn, &damped, Colliders::default());
     reference.steps(20_000);
     assert!(reference.kinetic_energy() < 1e-8, "it is at rest");
@@ -157,7 +171,8 @@ fn the_fastest_mode_grows_just_above_its_limit_and_not_below() {
         let found_bound = f64::from(step.dt) / limit;
         assert!((found_bound - bound).abs() < 1e-3, "the bound is {found_bound} of the limit, not {bound}");
         let run = |part: f64, steps: u32| {
-            let step = StepSettings { dt: (part * limit) as f32, ..step.clone() };
+            let mut step = step.clone();
+            step.dt = (part * limit) as f32;
             energies(&model, &step, |i| mode[i].as_vec3() * 1e-5, steps)
         };
         let below = run(0.99, STEPS);
@@ -175,7 +190,8 @@ fn a_garment_that_collapses_gains_nothing_with_its_damping() {
     let garment = parse_garment(text, "skirt").expect("it is whole").garment;
     let (sewn, _) = Model::from_garment(&garment, &cotton()).expect("it meshes").sewn();
     let step = at_bound(&sewn);
-    let collapse = |damping: f32| energies(&sewn, &StepSettings { damping, ..step.clone() }, |_| Vec3::ZERO, 10_000);
+    let collapse =
+        |damping: f32| energies(&sewn, &with(step.clone(), |step| step.damping = damping), |_| Vec3::ZERO, 10_000);
     let damped = collapse(cotton().fabric.damping as f32);
     assert!(damped[1] <= damped[0], "{damped:?} J");
     let free = collapse(0.0);

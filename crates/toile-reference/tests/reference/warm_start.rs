@@ -2,7 +2,7 @@
 
 use crate::support::{GRAVITY, Parts, THRESHOLD, changed, settings};
 use glam::{Vec3, vec3};
-use toile_model::{Hold, Model, Spring, SpringKind, StepSettings};
+use toile_model::{Hold, Model, Spring, SpringKind};
 use toile_reference::{Colliders, Particles, Reference, step};
 use toile_scene::Rule;
 
@@ -100,7 +100,10 @@ fn edges_are_held_against_the_tension_that_is_carried() {
         model.holds = vec![Hold { label: "waist".to_owned(), particles: 0..1, height: 0.0 }];
         model.held_particles = vec![0];
     });
-    let settings = StepSettings { rule: Rule::Predictive, sweeps: 3, damping: 2.0, ..settings() };
+    let mut settings = settings();
+    settings.rule = Rule::Predictive;
+    settings.sweeps = 3;
+    settings.damping = 2.0;
     let mut reference = Reference::new(&model, &settings, Colliders::default());
     (0..1200).for_each(|_| reference.step());
     assert!((reference.positions()[0].y + 0.009).abs() < 1e-3, "{}", reference.positions()[0].y);

@@ -45,8 +45,8 @@ pub struct Comparison {
 
 /// Drops a square sheet of 1 m and n × n particles on a body, level, 1 cm above its top, until it rests or `steps_max` are done.
 pub fn compare(mesh: &Mesh, collision: &Collision, n: u32, steps_max: u32) -> Comparison {
-    let (settings, model, step) = over(mesh, n);
-    let step = StepSettings { damping: 4.0, ..step };
+    let (settings, model, mut step) = over(mesh, n);
+    step.damping = 4.0;
     let mut life = Life::new(&model, &step, collision);
     let mut rests = false;
     while life.steps < steps_max && !rests {

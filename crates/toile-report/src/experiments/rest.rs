@@ -113,14 +113,14 @@ pub fn come_to_rest(lab: &Lab, scene: RestScene, change: RestSettings) -> Result
     let mut settings = Settings::new(fabric());
     settings.fabric.damping = DAMPING;
     settings.frame_rate = change.frame_rate;
-    settings.velocity_modification =
-        VelocityModification { sweeps: Some(change.sweeps), ..VelocityModification::new(change.rule) };
+    settings.velocity_modification = VelocityModification::new(change.rule);
+    settings.velocity_modification.sweeps = Some(change.sweeps);
     let model = Model::from_sheet(&scene.sheet(change.n), &settings).changed(|model| scene.place(model))?;
     let mut step = StepSettings::new(&settings, &model);
     step.dt /= change.step_division as f32;
     step.steps_per_frame *= change.step_division;
     let steps_per_second = f64::from(step.steps_per_frame) * change.frame_rate;
-    let colliders = Colliders { maps: None, shapes: (scene == RestScene::Cap).then(ball).into_iter().collect() };
+    let colliders = Colliders::new(None, (scene == RestScene::Cap).then(ball).into_iter().collect());
     let mut run = Run::new(lab, model, step, colliders)?;
     let mut speed = f64::INFINITY;
     while run.time() < SECONDS_MAX {

@@ -97,7 +97,7 @@ pub fn measure(lab: &Lab, name: &str, n: u32, frames: u32, left: Duration) -> Re
     let plan = Plan::new(&model, &step, Maps::None, !shapes.is_empty());
     let dispatches = u64::from(step.steps_per_frame) * plan.step.len() as u64 + plan.frame.len() as u64;
     let bytes = u64::from(step.steps_per_frame) * plan.traffic(&model, &step, &shapes);
-    let mut run = Run::new(lab, model, step, Colliders { maps: None, shapes })?;
+    let mut run = Run::new(lab, model, step, Colliders::new(None, shapes))?;
     let mut frame = Duration::MAX;
     for _ in 0..TIMED {
         let start = Instant::now();

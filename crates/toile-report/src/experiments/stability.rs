@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use toile::model::{Arrays, Model, StepSettings};
 use toile::scene::{Rule, Shape, VelocityModification};
 use toile_lab::scenes::hanging_sheet;
-use toile_lab::{Lab, LabError};
+use toile_lab::{Lab, LabError, with};
 use toile_reference::{Colliders, Reference};
 
 /// The row of the table.
@@ -83,7 +83,7 @@ pub fn stable_step(corner: &Corner) -> StableStep {
         .fold(0.0, f64::max);
     let unit = (mass / links().fold(0.0, f64::max)).sqrt();
     let step = StepSettings::new(&settings, &model);
-    let survives = |dt: f64| survives(&model, &StepSettings { dt: dt as f32, ..step.clone() }, corner);
+    let survives = |dt: f64| survives(&model, &with(step.clone(), |step| step.dt = dt as f32), corner);
     let [mut low, mut high] = REACH.map(|reach| reach * unit);
     let dt = if !survives(low) {
         0.0
@@ -106,7 +106,7 @@ pub fn stable_step(corner: &Corner) -> StableStep {
 fn survives(model: &Model, step: &StepSettings, corner: &Corner) -> bool {
     // In the way of the lower edge.
     let sphere = Shape::sphere(glam::DVec3::new(0.5, -0.5, 0.3), 0.15);
-    let colliders = Colliders { maps: None, shapes: if corner.contact { vec![sphere] } else { Vec::new() } };
+    let colliders = Colliders::new(None, if corner.contact { vec![sphere] } else { Vec::new() });
     let mut reference = Reference::new(model, step, colliders);
     let steps = (corner.seconds / f64::from(step.dt)).ceil() as u32;
     for index in 0..steps {

@@ -4,7 +4,7 @@ use super::case::{Case, Outcome, course};
 use glam::{DQuat, DVec3, Vec3};
 use toile::Colliders;
 use toile::model::{Model, StepSettings};
-use toile::scene::{Mesh, RigidKey, RigidMotion, Settings, Shape, ShapeMotion, Sheet};
+use toile::scene::{Mesh, RigidKey, RigidMotion, Settings, Shape, ShapeMotion};
 use toile_lab::scenes::{ball, fabric, hanging_sheet, square};
 use toile_lab::{DrawnMaps, Lab, LabError};
 use toile_reference::ExactDistance;
@@ -47,15 +47,15 @@ fn key(time: f64, translation: DVec3, angle: f64) -> RigidKey {
 
 /// A sheet on a sphere whose surface is above it.
 fn inside(lab: &Lab) -> Result<Outcome, LabError> {
-    let settings = Settings::new(fabric());
+    let mut settings = Settings::new(fabric());
+    settings.gravity = DVec3::ZERO;
     let body = Mesh::sphere(Vec3::ZERO, 0.2, 32);
     // At z = 17 cm, facing the front camera; 12 cm wide, so that its corners are nearly at the surface.
-    let sheet = Sheet { down: DVec3::Y, ..square(N, 0.12, DVec3::new(-0.06, -0.06, 0.17), DVec3::Y, Vec::new()) };
-    let settings = Settings { gravity: DVec3::ZERO, ..settings };
+    let sheet = square(N, 0.12, DVec3::new(-0.06, -0.06, 0.17), DVec3::Y, Vec::new());
     let model = Model::from_sheet(&sheet, &settings);
     let step = StepSettings::new(&settings, &model);
     let layers = DrawnMaps::draw(&lab.gpu(), settings.maps, &[(&body, step.thickness)], settings.texel as f32)?;
-    let colliders = Colliders { maps: Some(layers.maps), shapes: Vec::new() };
+    let colliders = Colliders::new(Some(layers.maps), Vec::new());
     let (run, course) = course(lab, model, step, colliders, FRAMES)?;
     let exact = ExactDistance::new(&body);
     let depth = exact.penetrations(run.positions(lab)?).map_or(f64::NAN, |depth| depth.max);
@@ -75,8 +75,9 @@ fn moved(lab: &Lab, keys: Vec<RigidKey>) -> Result<Outcome, LabError> {
     let model = Model::from_sheet(&sheet, &settings);
     let step = StepSettings::new(&settings, &model);
     let motion = ShapeMotion::Keys(RigidMotion { keys });
-    let sphere = Shape { motion, ..Shape::sphere(DVec3::ZERO, 0.15) };
-    let colliders = Colliders { maps: None, shapes: vec![sphere.clone()] };
+    let mut sphere = Shape::sphere(DVec3::ZERO, 0.15);
+    sphere.motion = motion;
+    let colliders = Colliders::new(None, vec![sphere.clone()]);
     let (run, course) = course(lab, model, step, colliders, FRAMES)?;
     let depths = run.positions(lab)?.into_iter().map(|p| sphere.depth(p, run.time()));
     let deepest = depths.fold(f64::NEG_INFINITY, f64::max);
@@ -97,7 +98,8 @@ fn spin(lab: &Lab) -> Result<Outcome, LabError> {
     // A quarter turn from key to key.
     let keys =
         (0..40).map(|k| key(f64::from(k) / 40.0, DVec3::ZERO, f64::from(k) * std::f64::consts::FRAC_PI_2)).collect();
-    let sphere = Shape { motion: ShapeMotion::Keys(RigidMotion { keys }), ..ball() };
-    let (_, course) = course(lab, model, step, Colliders { maps: None, shapes: vec![sphere] }, FRAMES)?;
+    let mut sphere = ball();
+    sphere.motion = ShapeMotion::Keys(RigidMotion { keys });
+    let (_, course) = course(lab, model, step, Colliders::new(None, vec![sphere]), FRAMES)?;
     Ok(Outcome { happened: course.words(), held: course.finite && course.elongation_end < 0.2 })
 }

@@ -128,11 +128,12 @@ fn sheet(
 
 fn needle(lab: &Lab) -> Result<Outcome, LabError> {
     let corners = [DVec2::ZERO, DVec2::new(0.002, 0.0), DVec2::new(0.001, 1.0)];
-    let edges = corners.iter().map(|&start| Edge { start, curve: Curve::Straight, label: None }).collect();
+    let edges = corners.iter().map(|&start| Edge::new(start, Curve::Straight)).collect();
     let placement = Placement { rotation: DQuat::IDENTITY, translation: DVec3::ZERO };
-    let panel = Panel { name: "needle".to_owned(), edges, placement };
-    let garment = Garment { name: "needle".to_owned(), panels: vec![panel], seams: Vec::new(), fabric: None };
-    let settings = Settings { spacing: 0.02, ..Settings::new(fabric()) };
+    let panel = Panel::new("needle", edges, placement);
+    let garment = Garment::new("needle", vec![panel], Vec::new());
+    let mut settings = Settings::new(fabric());
+    settings.spacing = 0.02;
     let model = match Model::from_garment(&garment, &settings) {
         Ok(model) => model,
         Err(error) => {

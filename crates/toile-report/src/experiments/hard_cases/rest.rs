@@ -33,9 +33,10 @@ pub(super) const LYING: Case = Case {
 fn rest(lab: &Lab, model: Model, settings: Settings, sphere: Option<Shape>) -> Result<Outcome, LabError> {
     let steps = lab.pick(STEPS[0], STEPS[1]);
     let step = StepSettings::new(&settings, &model);
-    let colliders = Colliders { maps: None, shapes: sphere.into_iter().collect() };
+    let colliders = Colliders::new(None, sphere.into_iter().collect());
     // To rest first, with a damping that the long run does not have.
-    let damped = StepSettings { damping: 3.0, ..step.clone() };
+    let mut damped = step.clone();
+    damped.damping = 3.0;
     let mut settling = Reference::new(&model, &damped, colliders.clone());
     (0..9000).for_each(|_| settling.step());
     let at_rest = model.changed(|model| model.positions = settling.positions().to_vec())?;

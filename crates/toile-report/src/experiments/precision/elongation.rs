@@ -41,8 +41,8 @@ pub struct Limited {
 /// Lets the sheet swing down on two corners for some frames.
 pub fn limited(lab: &Lab, limiting: Limiting, frames: u32) -> Result<Limited, LabError> {
     let (sheet, mut settings) = hanging_sheet(limiting.n);
-    settings.velocity_modification =
-        VelocityModification { sweeps: Some(limiting.sweeps), ..VelocityModification::new(limiting.rule) };
+    settings.velocity_modification = VelocityModification::new(limiting.rule);
+    settings.velocity_modification.sweeps = Some(limiting.sweeps);
     let model = Model::from_sheet(&sheet, &settings);
     let mut step = StepSettings::new(&settings, &model);
     step.dt /= limiting.step_division as f32;

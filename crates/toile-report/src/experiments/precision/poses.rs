@@ -314,7 +314,7 @@ pub fn cost(lab: &Lab, body: &Mesh, kind: MapKind, n: u32) -> Result<[f64; 2], L
     let thickness = settings.fabric.thickness as f32;
     let [low, high] = body.bounds().unwrap_or_default();
     let map_box = MapBox::around([low - thickness, high + thickness], texel);
-    let maps = BodyMaps::new(&gpu.device, &MapSpace { kind, map_box, moving: false, area: body.area() })?;
+    let maps = BodyMaps::new(&gpu.device, &MapSpace::new(kind, map_box, body.area()))?;
     let surface = Surface::new(&gpu.device, body, texel);
     let mut drawing = f64::INFINITY;
     for _ in 0..6 {
@@ -324,7 +324,7 @@ pub fn cost(lab: &Lab, body: &Mesh, kind: MapKind, n: u32) -> Result<[f64; 2], L
     }
     let top = low.midpoint(high).as_dvec3().with_y(f64::from(high.y) + 0.006);
     let sheet = square(n, 1.0, top + DVec3::new(-0.5, 0.0, 0.5), DVec3::NEG_Z, Vec::new());
-    let colliders = Colliders { maps: Some(maps.into()), shapes: Vec::new() };
+    let colliders = Colliders::new(Some(maps.into()), Vec::new());
     let mut run = Run::sheet(lab, &sheet, &settings, colliders)?;
     for _ in 0..20 {
         run.frame(lab)?;

@@ -64,7 +64,8 @@ impl Scene {
 /// it would be if every limit held exactly [m].
 pub fn rest_error(lab: &Lab, rule: Rule, sweeps: u32) -> Result<Distance, LabError> {
     let mut settings = Settings::new(fabric());
-    settings.velocity_modification = VelocityModification { sweeps: Some(sweeps), ..VelocityModification::new(rule) };
+    settings.velocity_modification = VelocityModification::new(rule);
+    settings.velocity_modification.sweeps = Some(sweeps);
     settings.fabric.structural_stiffness = 2.0;
     settings.fabric.shear_stiffness = 1.0;
     settings.fabric.bend_stiffness = 0.2;

@@ -69,10 +69,10 @@ pub fn outcome(lab: &Lab, trial: Trial, n: u32, frames: u32) -> Result<Outcome, 
         Scene::MovingBall => Some(MovingBall::new(lab, &step, trial.changed != Some(Term::VelocityMap))?),
         Scene::Hang | Scene::Ball => None,
     };
-    let colliders = Colliders {
-        maps: moving.as_ref().map(|ball| ball.maps.clone()),
-        shapes: (trial.scene == Scene::Ball).then(ball).into_iter().collect(),
-    };
+    let colliders = Colliders::new(
+        moving.as_ref().map(|ball| ball.maps.clone()),
+        (trial.scene == Scene::Ball).then(ball).into_iter().collect(),
+    );
     let mut run = Run::new(lab, model, step, colliders)?;
     let mut elongation_max: f64 = 0.0;
     for frame in 1..=frames {
@@ -100,8 +100,8 @@ fn change_settings(trial: Trial, settings: &mut Settings) {
         Some(Term::BendSprings) => settings.fabric.bend_stiffness = 0.0,
         Some(Term::Levels) => {
             let sweeps = Some(Rule::Hierarchical.sweeps());
-            settings.velocity_modification =
-                VelocityModification { sweeps, ..VelocityModification::new(Rule::Predictive) };
+            settings.velocity_modification = VelocityModification::new(Rule::Predictive);
+            settings.velocity_modification.sweeps = sweeps;
         }
         Some(Term::Friction) => settings.fabric.friction = 0.0,
         Some(Term::FrictionLaw) => {
@@ -139,13 +139,15 @@ struct MovingBall {
 impl MovingBall {
     fn new(lab: &Lab, step: &StepSettings, with_velocities: bool) -> Result<Self, LabError> {
         let swing = ShapeMotion::Swing { amplitude: DVec3::new(0.4, 0.0, 0.0), period: 4.0 };
-        let sphere = Shape { motion: swing, ..ball() };
+        let mut sphere = ball();
+        sphere.motion = swing;
         let thickness = step.thickness;
         let size = MapBox::size_for(Vec3::splat(2.0 * reach(thickness)), TEXEL);
         let map_box = map_box_at(&sphere, 0.0, thickness, size);
         // Area of a sphere.
         let area = 4.0 * std::f64::consts::PI * BALL_RADIUS * BALL_RADIUS;
-        let space = MapSpace { kind: MapKind::Layers, map_box, moving: with_velocities, area };
+        let mut space = MapSpace::new(MapKind::Layers, map_box, area);
+        space.moving = with_velocities;
         let maps = Arc::new(BodyMaps::new(&lab.device, &space)?);
         Ok(Self { sphere, maps, thickness, size, with_velocities })
     }

@@ -47,7 +47,9 @@ pub struct Drape {
 /// # Errors
 /// [`LabError::Toile`] when the sample cannot be meshed.
 pub fn drape(seed: u64, fabric: Fabric, spacing: f64, seconds: f64) -> Result<Drape, LabError> {
-    let mut settings = Settings { spacing, texel: 0.0025, ..Settings::new(fabric) };
+    let mut settings = Settings::new(fabric);
+    settings.spacing = spacing;
+    settings.texel = 0.0025;
     settings.gravity = DVec3::new(0.0, 0.0, -9.81);
     // Where it comes to rest is asked, not how.
     settings.fabric.damping = 5.0;
@@ -67,7 +69,7 @@ pub fn drape(seed: u64, fabric: Fabric, spacing: f64, seconds: f64) -> Result<Dr
     let disc = cylinder(SUPPORT as f32, DISC, 64);
     let surface = Surface { mesh: &disc, thickness, velocities: None, open: false };
     let maps = BodyMaps::around(MapKind::Sides, &[surface], settings.texel as f32);
-    let colliders = Colliders { maps: Some(maps), shapes: Vec::new() };
+    let colliders = Colliders::new(Some(maps), Vec::new());
     let frames = (seconds * settings.frame_rate).round() as u32;
     let end = settled(&model, &step, colliders, frames);
     let [support, whole] = [SUPPORT, SAMPLE].map(|radius| PI * radius * radius);
@@ -143,8 +145,8 @@ fn shadow(positions: &[Vec3], model: &Model) -> f64 {
 fn sample() -> Garment {
     let corners = [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y].map(|direction| direction * SAMPLE);
     let arc = Curve::Arc { radius: SAMPLE, large: false, right: true };
-    let edges = corners.iter().map(|&start| Edge { start, curve: arc, label: None }).collect();
+    let edges = corners.iter().map(|&start| Edge::new(start, arc)).collect();
     let placement = Placement { rotation: DQuat::IDENTITY, translation: DVec3::ZERO };
-    let panel = Panel { name: "sample".to_owned(), edges, placement };
-    Garment { name: "sample".to_owned(), panels: vec![panel], seams: Vec::new(), fabric: None }
+    let panel = Panel::new("sample", edges, placement);
+    Garment::new("sample", vec![panel], Vec::new())
 }

@@ -2,7 +2,7 @@
 
 use super::laws::settings;
 use crate::page::{Axis, Block, Cell, Plot, Series, SeriesStyle, Table};
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use toile::model::{Model, StepSettings};
 use toile::scene::{Pin, Rule, Sheet};
 use toile_lab::{Lab, LabError, settled};
@@ -43,17 +43,8 @@ pub fn cantilever_tip(flexion: Flexion, cells: u32) -> f64 {
     settings.fabric.damping = 12.0;
     let cell = LENGTH / (f64::from(cells) + 0.5);
     let columns = cells + 2;
-    let sheet = Sheet {
-        name: "strip".to_owned(),
-        columns,
-        rows: 3,
-        size: DVec2::new(cell * f64::from(columns - 1), 2.0 * cell),
-        corner: DVec3::ZERO,
-        right: DVec3::X,
-        down: DVec3::Z,
-        pins: [0, 1].iter().flat_map(|&column| [0, 1, 2].map(|row| Pin { column, row })).collect(),
-        fabric: None,
-    };
+    let mut sheet = Sheet::new("strip", [columns, 3], DVec2::new(cell * f64::from(columns - 1), 2.0 * cell));
+    sheet.pins = [0, 1].iter().flat_map(|&column| [0, 1, 2].map(|row| Pin { column, row })).collect();
     let model = Model::from_sheet(&sheet, &settings);
     assert!(model.bending_carried > 0.999, "the step of this strip carries its rigidity");
     let step = StepSettings::new(&settings, &model);

@@ -33,19 +33,12 @@ pub fn slide(lab: &Lab, degrees: f64, friction: Friction) -> Result<Slide, LabEr
     let thickness = settings.fabric.thickness;
     let (mesh, tilt) = plate(degrees);
     let [right, uphill, normal] = [DVec3::X, tilt * DVec3::NEG_Z, tilt * DVec3::Y];
-    let sheet = Sheet {
-        name: "sheet".to_owned(),
-        columns: 9,
-        rows: 9,
-        size: DVec2::splat(0.24),
-        corner: normal * thickness - right * 0.12,
-        right,
-        down: uphill,
-        pins: Vec::new(),
-        fabric: None,
-    };
+    let mut sheet = Sheet::new("sheet", [9, 9], DVec2::splat(0.24));
+    sheet.corner = normal * thickness - right * 0.12;
+    sheet.right = right;
+    sheet.down = uphill;
     let layers = DrawnMaps::draw(&lab.gpu(), settings.maps, &[(&mesh, thickness as f32)], settings.texel as f32)?;
-    let colliders = Colliders { maps: Some(layers.maps), shapes: Vec::new() };
+    let colliders = Colliders::new(Some(layers.maps), Vec::new());
     let mut run = Run::sheet(lab, &sheet, &settings, colliders)?;
     for _ in 0..(SECONDS * settings.frame_rate).round() as u32 {
         run.frame(lab)?;

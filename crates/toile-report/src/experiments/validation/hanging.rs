@@ -29,17 +29,9 @@ pub fn hanging_strip(rows: u32) -> Option<HangingStrip> {
     settings.fabric.bend_stiffness = 0.0;
     settings.fabric.damping = 8.0;
     let cell = 0.5 / f64::from(rows - 1);
-    let sheet = Sheet {
-        name: "strip".to_owned(),
-        columns: 5,
-        rows,
-        size: DVec2::new(4.0 * cell, 0.5),
-        corner: DVec3::ZERO,
-        right: DVec3::X,
-        down: DVec3::NEG_Y,
-        pins: (0..5).map(|column| Pin { column, row: 0 }).collect(),
-        fabric: None,
-    };
+    let mut sheet = Sheet::new("strip", [5, rows], DVec2::new(4.0 * cell, 0.5));
+    sheet.down = DVec3::NEG_Y;
+    sheet.pins = (0..5).map(|column| Pin { column, row: 0 }).collect();
     let model = Model::from_sheet(&sheet, &settings);
     let step = StepSettings::new(&settings, &model);
     let end = settled(&model, &step, Default::default(), 240)?;
@@ -68,17 +60,8 @@ pub fn catenary_sag(span: f64, cells: u32) -> f64 {
     settings.fabric.damping = 5.0;
     let cell = 1.0 / f64::from(cells);
     let end = cells;
-    let sheet = Sheet {
-        name: "strip".to_owned(),
-        columns: cells + 1,
-        rows: 2,
-        size: DVec2::new(1.0, cell),
-        corner: DVec3::ZERO,
-        right: DVec3::X,
-        down: DVec3::Z,
-        pins: [0, end].iter().flat_map(|&column| [0, 1].map(|row| Pin { column, row })).collect(),
-        fabric: None,
-    };
+    let mut sheet = Sheet::new("strip", [cells + 1, 2], DVec2::new(1.0, cell));
+    sheet.pins = [0, end].iter().flat_map(|&column| [0, 1].map(|row| Pin { column, row })).collect();
     let model = Model::from_sheet(&sheet, &settings);
     // It starts as a V, which is as long as the cloth.
     let drop = (0.25 - 0.25 * span * span).sqrt();

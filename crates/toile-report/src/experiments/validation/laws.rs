@@ -61,7 +61,8 @@ pub fn free_fall_error(lab: &Lab, rule: Rule, steps_per_frame: u32) -> Result<Fa
 /// # Errors
 /// [`LabError`] when the device is lost.
 pub fn momentum_error(lab: &Lab, rule: Rule) -> Result<MomentumError, LabError> {
-    let settings = Settings { gravity: DVec3::ZERO, ..settings(rule) };
+    let mut settings = settings(rule);
+    settings.gravity = DVec3::ZERO;
     let random = &mut Random::new(lab.seed);
     let model = Model::from_sheet(&sheet(17), &settings).changed(|model| {
         for position in &mut model.positions {
@@ -143,19 +144,14 @@ pub(super) fn settings(rule: Rule) -> Settings {
 
 /// The numbers of a step with another number of steps per frame.
 pub(super) fn with_steps(step: StepSettings, settings: &Settings, steps_per_frame: u32) -> StepSettings {
-    StepSettings { dt: (1.0 / (settings.frame_rate * f64::from(steps_per_frame))) as f32, steps_per_frame, ..step }
+    let mut changed = step;
+    changed.dt = (1.0 / (settings.frame_rate * f64::from(steps_per_frame))) as f32;
+    changed.steps_per_frame = steps_per_frame;
+    changed
 }
 
 fn sheet(columns: u32) -> Sheet {
-    Sheet {
-        name: "sheet".to_owned(),
-        columns,
-        rows: columns,
-        size: DVec2::ONE,
-        corner: DVec3::new(-0.5, 1.0, -0.5),
-        right: DVec3::X,
-        down: DVec3::Z,
-        pins: Vec::new(),
-        fabric: None,
-    }
+    let mut sheet = Sheet::new("sheet", [columns, columns], DVec2::ONE);
+    sheet.corner = DVec3::new(-0.5, 1.0, -0.5);
+    sheet
 }
