@@ -41,6 +41,8 @@ pub enum Outcome {
     Diverged,
     /// It took longer than the limit.
     Late,
+    /// It could not be run, with why.
+    Failed(String),
 }
 
 /// One row of the table.
@@ -89,7 +91,7 @@ fn run() -> Result<(), String> {
             let trial = Trial::new(scene, *n);
             let mut programs = settings::programs(&trial);
             programs.retain(|(program, _)| python.is_ok() || !matches!(program, Program::Taichi(_)));
-            let outcomes = measure(&bench, python.as_deref().ok(), &trial, &programs, &options)?;
+            let outcomes = measure(&bench, python.as_deref().ok(), &trial, &programs, &options);
             rows.extend(programs.into_iter().zip(outcomes).map(|((program, setting), outcome)| Row {
                 program: program.name().to_owned(),
                 scene: scene.clone(),
@@ -108,6 +110,10 @@ fn run() -> Result<(), String> {
     if let Some(file) = &options.json {
         write(file, &page::json(section, adapter))?;
     }
+    let failed = rows.iter().filter(|row| matches!(row.outcome, Outcome::Failed(_))).count();
+    if failed > 0 {
+        return Err(format!("{failed} of {} settings failed, as the table says", rows.len()));
+    }
     Ok(())
 }
 
@@ -122,7 +128,7 @@ fn measure(
     trial: &Trial,
     programs: &[(Program, String)],
     options: &Options,
-) -> Result<Vec<Outcome>, String> {
+) -> Vec<Outcome> {
     let mut outcomes: Vec<Outcome> = programs.iter().map(|_| Outcome::Done(Vec::new())).collect();
     for repetition in 1..=options.repetitions {
         for ((program, setting), outcome) in programs.iter().zip(&mut outcomes) {
@@ -135,32 +141,33 @@ fn measure(
                 program.name()
             );
             let limit = Duration::from_secs(options.limit);
-            let course = match program {
-                Program::Toile(settings) => toile(bench, trial, settings, options.frames, limit)?,
+            let ended = match program {
+                Program::Toile(settings) => toile(bench, trial, settings, options.frames, limit),
                 Program::NvCloth(settings, iterations) => {
                     let mut scheme = NvClothScheme::new(trial, *settings);
                     course(options.frames, limit, || {
                         let start = Instant::now();
                         scheme.advance(trial.frame_seconds(), *iterations);
                         Ok(Some((start.elapsed(), scheme.positions())))
-                    })?
+                    })
                 }
                 Program::Taichi(settings) => {
                     let python = python.expect("a program that is absent has no rows");
-                    taichi::course(python, trial, *settings, options.frames, limit)?
+                    taichi::course(python, trial, *settings, options.frames, limit)
                 }
             };
-            match course {
-                Ended::Whole(course) => match course.figures(trial.n as usize, trial.spacing()) {
+            match ended {
+                Ok(Ended::Whole(course)) => match course.figures(trial.n as usize, trial.spacing()) {
                     Some(figures) => done.push(figures),
                     None => *outcome = Outcome::Diverged,
                 },
-                Ended::Diverged => *outcome = Outcome::Diverged,
-                Ended::Late => *outcome = Outcome::Late,
+                Ok(Ended::Diverged) => *outcome = Outcome::Diverged,
+                Ok(Ended::Late) => *outcome = Outcome::Late,
+                Err(fault) => *outcome = Outcome::Failed(fault),
             }
         }
     }
-    Ok(outcomes)
+    outcomes
 }
 
 /// How a run ended.

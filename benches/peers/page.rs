@@ -89,6 +89,7 @@ fn table(rows: &[Row], adapter: &str, options: &Options) -> Table {
                 ]);
             }
             (Outcome::Late, _) => cells.push(Cell::text(format!("longer than {} s in all", options.limit))),
+            (Outcome::Failed(fault), _) => cells.push(Cell::text(format!("failed: {fault}"))),
             _ => cells.push(Cell::text("diverged")),
         }
         cells.resize(columns.len(), Cell::Missing);

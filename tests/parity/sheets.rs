@@ -1,12 +1,12 @@
 //! Sheets alone, under every rule, and on spheres: device and reference agree bit for bit over whole runs.
 
 use crate::life::Life;
-use toile::Cloth;
+use toile::{Cloth, Colliders, Error};
 use toile_lab::DrawnMaps;
 use toile_lab::fixtures::{scene, shapes, sheet_model};
 use toile_lab::kernels::{first_difference, vec3_words};
 use toile_lab::with;
-use toile_model::StepSettings;
+use toile_model::{ModelError, StepSettings};
 use toile_scene::{Friction, MapKind, Mesh, Polish, Rule, VelocityModification, Wind};
 use toile_workspace::{arrived, finish_frame, gpu};
 
@@ -23,6 +23,33 @@ fn a_hanging_sheet_agrees_under_every_rule() {
             assert!(status.elongation_max > 0.0, "the sheet hangs");
         }
     }
+}
+
+/// A host makes model and step by itself, each from settings of its own.
+#[test]
+fn a_sheet_agrees_under_another_rule_than_it_was_made_for_or_is_refused() {
+    let under = |rule| {
+        let mut hang = scene("hang", &[("n", "9")]);
+        hang.settings.velocity_modification = VelocityModification::new(rule);
+        let model = sheet_model(&hang);
+        (StepSettings::new(&hang.settings, &model), model)
+    };
+    for (_, made_for) in Rule::ALL {
+        let (_, model) = under(made_for);
+        for (name, rule) in Rule::ALL {
+            let (step, _) = under(rule);
+            if rule == Rule::Hierarchical && made_for != rule {
+                let refused = Cloth::new(&gpu().device, &model, &step, Colliders::default());
+                assert!(matches!(refused, Err(Error::Model(ModelError::Rule))), "made for {made_for:?}");
+                continue;
+            }
+            Life::new(&model, &step, None, Vec::new()).agree(&format!("made for {made_for:?}, under {name}"), 3);
+        }
+    }
+    let (mut step, model) = under(Rule::Average);
+    step.polish = Some(Polish { target: 0.05, sweeps: 3 });
+    let refused = Cloth::new(&gpu().device, &model, &step, Colliders::default());
+    assert!(matches!(refused, Err(Error::Model(ModelError::Polish))));
 }
 
 #[test]

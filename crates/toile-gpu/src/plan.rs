@@ -201,7 +201,8 @@ fn passes(row: &Row, model: &Model, settings: &StepSettings, level: &Level, span
         Domain::LimitColour => coloured(&model.limit_colours, 1, &whole),
         Domain::GuardedCluster => {
             let share = |pass, colour| settings.guard_share(pass, colour);
-            coloured(&model.levels[0].colours, settings.guard_passes, &share)
+            let colours = model.levels.first().map_or(&[][..], |level| &level.colours);
+            coloured(colours, settings.guard_passes, &share)
         }
         Domain::LevelNode => coloured(std::slice::from_ref(&level.nodes), 1, &whole),
         Domain::LevelCluster => {

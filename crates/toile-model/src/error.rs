@@ -74,4 +74,14 @@ pub enum ModelError {
         /// Most steps of a frame.
         most: u32,
     },
+    /// The step is of the hierarchical rule, and the model of another.
+    #[error(
+        "the rule \"hierarchical\" holds levels of limits, and this model was made for another rule: make model and step from the same settings"
+    )]
+    Rule,
+    /// A polish under a rule that knows none.
+    #[error(
+        "a polish measures what the coming move would do: use the rule \"hierarchical\" or \"predictive\" with it, or none"
+    )]
+    Polish,
 }

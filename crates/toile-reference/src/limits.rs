@@ -62,7 +62,7 @@ pub fn guard(particles: &mut Particles, model: &Arrays, settings: &StepSettings,
         return;
     }
     for pass in 0..settings.guard_passes {
-        for (colour, index) in model.levels[0].colours.iter().zip(0..) {
+        for (colour, index) in model.levels.first().iter().flat_map(|level| &level.colours).zip(0..) {
             step::limit_guard(particles, model, colour, settings.guard_share(pass, index), settings);
         }
     }

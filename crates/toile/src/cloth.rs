@@ -64,12 +64,9 @@ impl Cloth {
     /// A cloth at the start of its model; `kernels` is a device, or the pipelines that other cloths on it use.
     ///
     /// # Errors
-    /// [`Error::Model`] when a number of the step or of a shape is out of its range. [`Error::Gpu`] when the model does not fit the device, or the device has
+    /// [`Error::Model`] when a number of the step or of a shape is out of its range, or the step is none of this model's: see
+    /// [`StepSettings::check_with`](toile_model::StepSettings::check_with). [`Error::Gpu`] when the model does not fit the device, or the device has
     /// less than the default limits of WebGPU.
-    ///
-    /// # Panics
-    /// When the settings have the rule [`Rule::Hierarchical`](toile_scene::Rule::Hierarchical) and the model was made for another one, or a polish
-    /// under a rule that knows none.
     pub fn new(
         kernels: impl Into<Kernels>,
         model: &Model,
@@ -77,7 +74,7 @@ impl Cloth {
         colliders: Colliders,
     ) -> Result<Self, Error> {
         let kernels = kernels.into();
-        settings.check().map_err(ModelError::from)?;
+        settings.check_with(model)?;
         colliders.shapes.iter().try_for_each(Shape::check).map_err(ModelError::from)?;
         let solver = Solver::new(&kernels, model, settings, colliders.borrowed())?;
         Ok(Self::with_solver(kernels.device(), model, solver, colliders))

@@ -1,8 +1,8 @@
 //! What the numbers of a step must be, whoever made them.
 
-use crate::StepSettings;
+use crate::{Model, ModelError, StepSettings};
 use std::ops::RangeInclusive;
-use toile_scene::{Friction, OutOfRange, Wind};
+use toile_scene::{Friction, OutOfRange, Rule, Wind};
 
 /// Time steps [s].
 const STEPS: RangeInclusive<f64> = 1e-9..=1.0;
@@ -37,6 +37,22 @@ impl StepSettings {
         amount("pressing", self.pressing, "m/s²")?;
         amount("hold_rate", self.hold_rate, "1/s")?;
         amount("hold_speed", self.hold_speed, "m/s")
+    }
+
+    /// The same, and an error where these are no numbers for this model.
+    ///
+    /// # Errors
+    /// [`ModelError::Range`] as [`StepSettings::check`], [`ModelError::Rule`] when they have the hierarchical rule and the model was made for another,
+    /// [`ModelError::Polish`] when their rule knows none.
+    pub fn check_with(&self, model: &Model) -> Result<(), ModelError> {
+        self.check()?;
+        if self.rule == Rule::Hierarchical && model.rule != Rule::Hierarchical {
+            return Err(ModelError::Rule);
+        }
+        if self.polish.is_some() && !matches!(self.rule, Rule::Hierarchical | Rule::Predictive) {
+            return Err(ModelError::Polish);
+        }
+        Ok(())
     }
 }
 
