@@ -25,7 +25,13 @@ struct Twin {
 impl Twin {
     /// A sheet that hangs on two corners in a calm, beside a sphere.
     fn hanging() -> Self {
-        let Scene { mut settings, mut cloths, .. } = scene("hang", &[("n", "16")]);
+        Self::new("16", 0.0)
+    }
+
+    /// The same of so many particles on a side and of a bending rigidity [N·m].
+    fn new(n: &str, rigidity: f64) -> Self {
+        let Scene { mut settings, mut cloths, .. } = scene("hang", &[("n", n)]);
+        settings.fabric.bending_rigidity = rigidity;
         settings.wind = Some(with(Wind::new(DVec3::ZERO), |wind| wind.pressure = 0.01));
         let Cut::Sheet(sheet) = cloths.remove(0) else { panic!("it is a sheet") };
         let shapes = vec![Shape::sphere(BELOW, 0.2)];
@@ -120,6 +126,25 @@ fn gravity_wind_damping_and_friction_change_without_new_buffers() {
     twin.agree("without air, and damped");
     assert!(speed(&twin) < 0.1 * fast, "honey holds it: {} after {fast} m/s", speed(&twin));
     assert_eq!(twin.cloth.bytes(), bytes);
+}
+
+#[test]
+fn rigidity_changes_whatever_its_springs_span() {
+    let mut twin = Twin::new("65", 2e-3);
+    let spans = |twin: &Twin| {
+        let model = &twin.model;
+        let places = |[a, b]: [u32; 2]| model.flat[a as usize].distance(model.flat[b as usize]);
+        let links =
+            (0..model.positions.len()).flat_map(|i| model.links.row(i).iter().map(move |link| (i as u32, link)));
+        links.filter(|(_, link)| link.stiffness > 0.0).map(|(i, link)| places([i, link.other])).fold(0.0, f32::max)
+    };
+    // Cells of 16 mm: it carries 7e-4 N·m across two of them.
+    for (rigidity, cells) in [(1e-4, 2.0), (2e-3, 4.0), (0.0, 2.0)] {
+        twin.change(|settings| settings.fabric.bending_rigidity = rigidity);
+        assert!((spans(&twin) * 64.0 - cells).abs() < 0.01, "{} cells at {rigidity} N·m", 64.0 * spans(&twin));
+        twin.frames(2);
+        twin.agree(&format!("{rigidity} N·m"));
+    }
 }
 
 #[test]

@@ -63,6 +63,15 @@ impl BendLine {
         if self.is_ring { 0..self.particles.len() } else { 1..self.particles.len() - 1 }
     }
 
+    /// The outer particles of a hinge, and the length of both its sides [m].
+    pub(crate) fn hinge(&self, middle: usize) -> ([u32; 2], f64) {
+        let before = middle + self.particles.len() - 1;
+        (
+            [self.particle(before), self.particle(middle + 1)],
+            self.side(middle + self.sides.len() - 1) + self.side(middle),
+        )
+    }
+
     /// So many sides around a place, or as many as there are: beside it where the line ends.
     pub(crate) fn around(&self, middle: usize, side_count: usize) -> Range<usize> {
         let all = self.sides.len();

@@ -2,6 +2,7 @@
 
 use crate::cloth::bend_lines::{BendLine, Hinge, bend_lines};
 use crate::{Arrays, Csr, Link, SpringKind};
+use std::collections::HashMap;
 use std::ops::Range;
 
 /// What the push may add to (ω·dt)², by Gershgorin's bound. The springs have up to 1.6² of the 4 that are stable, most of it along
@@ -19,7 +20,9 @@ struct Arch {
     line: usize,
     /// Their places on it.
     sides: Range<usize>,
-    /// Mass of the cloth whose bending it holds [kg].
+    /// The places of the hinges whose bending it holds.
+    middles: Range<usize>,
+    /// Mass of the cloth around these [kg].
     mass: f64,
     /// Force of its bend spring, and of its sides [N].
     push: f64,
@@ -96,8 +99,13 @@ impl Arrays {
                 let mass = f64::from(self.masses[line.particle(middle) as usize]);
                 let sides = self.unlinked(line, line.around(middle, side_count));
                 match arches[first_arch..].last_mut().filter(|last| last.sides == sides) {
-                    Some(last) => last.mass += mass,
-                    None => arches.push(Arch { line: index, sides, mass, push: 0.0 }),
+                    Some(last) => {
+                        last.middles.end += 1;
+                        last.mass += mass;
+                    }
+                    None => {
+                        arches.push(Arch { line: index, sides, middles: middle..middle + 1, mass, push: 0.0 });
+                    }
                 }
             }
         }
@@ -153,24 +161,36 @@ impl Arrays {
         arches.iter().map(least).collect()
     }
 
-    /// Puts a bend spring across each arch, in place of those across the hinges.
+    /// Puts a bend spring across each arch, in place of those across its hinges. What it has no use for stays without a stiffness: a cloth has as many
+    /// links whatever its rigidity is.
     fn span(&mut self, hinges: &[Hinge], lines: &[BendLine], arches: &[Arch]) {
         let mut rows: Vec<Vec<Link>> = (0..self.links.row_count()).map(|i| self.links.row(i).to_vec()).collect();
         for Hinge { outer: [a, b], .. } in hinges {
             rows[*a as usize].retain(|link| link.other != *b);
             rows[*b as usize].retain(|link| link.other != *a);
         }
-        for arch in arches {
-            let [length, _] = lines[arch.line].sums(&arch.sides);
-            let [a, b] = arch.ends(lines);
+        let mut join = |[a, b]: [u32; 2], length: f64, stiffness: f64| {
             for (here, other) in [(a, b), (b, a)] {
+                let link = Link { other, rest_length: length as f32, stiffness: stiffness as f32 };
+                rows[here as usize].push(link);
+            }
+        };
+        let mut spanned = HashMap::new();
+        for (arch, index) in arches.iter().zip(0..) {
+            // Lines that cross twice may have two arches between the same particles.
+            let is_first = *spanned.entry(arch.ends(lines)).or_insert(index) == index;
+            if is_first {
+                let [length, _] = lines[arch.line].sums(&arch.sides);
                 // No stiffer than what it pushes with, so that it does not stretch the cloth either.
-                let stiffness = (arch.push / length) as f32;
-                // Lines that cross twice may have two arches between the same particles.
-                match rows[here as usize].iter_mut().find(|link| link.other == other) {
-                    Some(link) => link.stiffness += stiffness,
-                    None => rows[here as usize].push(Link { other, rest_length: length as f32, stiffness }),
-                }
+                join(arch.ends(lines), length, arch.push / length);
+            }
+        }
+        for (arch, index) in arches.iter().zip(0..) {
+            let line = &lines[arch.line];
+            let used = usize::from(spanned[&arch.ends(lines)] == index);
+            for middle in arch.middles.clone().skip(used) {
+                let (outer, length) = line.hinge(middle);
+                join(outer, length, 0.0);
             }
         }
         self.links = Csr::from_rows(rows);
@@ -198,9 +218,10 @@ impl Arrays {
 }
 
 impl Arch {
-    /// The particles that its bend spring joins.
+    /// The particles that its bend spring joins, the lower index first.
     fn ends(&self, lines: &[BendLine]) -> [u32; 2] {
-        [self.sides.start, self.sides.end].map(|place| lines[self.line].particle(place))
+        let [a, b] = [self.sides.start, self.sides.end].map(|place| lines[self.line].particle(place));
+        [a.min(b), a.max(b)]
     }
 }
 
