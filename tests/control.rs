@@ -48,8 +48,8 @@ impl Twin {
         change(&mut self.settings);
         let step = self.cloth.settings().with_numbers_of(&self.settings);
         let model = Model::from_sheet(&self.sheet, &self.settings);
+        self.cloth.set_model(&model);
         gpu().run(|encoder| {
-            self.cloth.record_model(&gpu().device, encoder, &model);
             self.cloth.record_settings(&gpu().device, encoder, &step);
         });
         self.reference.set_model(&model);

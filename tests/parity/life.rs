@@ -36,7 +36,7 @@ pub struct Life {
 
 impl Life {
     pub fn new(model: &Model, settings: &StepSettings, layers: Option<&DrawnMaps>, shapes: Vec<Shape>) -> Self {
-        let colliders = Colliders::new(layers.map(|layers| layers.maps.as_ref()), shapes.clone());
+        let colliders = Colliders::new(layers.map(|layers| layers.maps.clone()), shapes.clone());
         let solver = Solver::new(&gpu().device, model, settings, colliders).expect("the model fits the device");
         let maps = layers.map(|layers| layers.read.clone());
         let reference = Reference::new(model, settings, toile_reference::Colliders::new(maps, shapes));
@@ -108,7 +108,7 @@ impl Life {
 
     /// The handover to the sewn model on both sides.
     pub fn sewn(self, model: &Model, merge: &Merge, settings: &StepSettings, layers: Option<&DrawnMaps>) -> Self {
-        let colliders = Colliders::new(layers.map(|layers| layers.maps.as_ref()), Vec::new());
+        let colliders = Colliders::new(layers.map(|layers| layers.maps.clone()), Vec::new());
         let mut solver = Solver::new(&gpu().device, model, settings, colliders).expect("the model fits the device");
         gpu().run(|encoder| solver.record_merge(&gpu().device, encoder, &self.solver, merge));
         Self { solver, reference: self.reference.sewn(model, settings, merge), contacts_max: 0 }

@@ -1,8 +1,9 @@
 //! The buffers of a plan: those that its kernels name, and no other.
 
 use crate::contents::{constant, encoded, lag, uniform, words};
-use crate::{GpuError, Plan};
+use crate::{GpuError, Kernels, Plan};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use toile_kernels::{Binding, Interface, Per, Resource, Role, WORKGROUP_SIZE, buffer_row};
 use toile_model::{Model, ShapeStep, StepSettings};
 use toile_scene::Shape;
@@ -30,7 +31,8 @@ pub(crate) struct Buffers {
 
 #[derive(Debug)]
 struct Made {
-    buffer: wgpu::Buffer,
+    /// Of a constant role: that of other cloths, too.
+    buffer: Arc<wgpu::Buffer>,
     role: Role,
     /// Bytes that a dispatch sees, and from one entry to the next.
     seen: u64,
@@ -38,23 +40,41 @@ struct Made {
 }
 
 impl Buffers {
-    /// Creates and fills the buffers that these bindings name.
+    /// Creates and fills the buffers that these bindings name; constant ones are shared.
     pub(crate) fn new<'a>(
-        device: &wgpu::Device,
+        kernels: &Kernels,
         start: Start<'_>,
         bindings: impl Iterator<Item = &'a Binding>,
     ) -> Result<Self, GpuError> {
         let mut by_name = BTreeMap::new();
-        let most = device.limits().max_storage_buffer_binding_size;
+        let most = kernels.device().limits().max_storage_buffer_binding_size;
         for (name, resource) in named(bindings) {
             let contents = Contents::of(name, resource, start);
             let needed = contents.size();
             if needed > most {
                 return Err(GpuError::BufferTooLarge { name: name.to_owned(), needed, available: most });
             }
-            by_name.insert(name, contents.make(device, name, resource));
+            by_name.insert(name, contents.make(kernels, name, resource));
         }
         Ok(Self { by_name })
+    }
+
+    /// Takes the constant buffers of another model in the place of these, which stay as they are for whoever shares them.
+    ///
+    /// # Panics
+    /// When one has another size.
+    pub(crate) fn take_constants<'a>(
+        &mut self,
+        kernels: &Kernels,
+        start: Start<'_>,
+        bindings: impl Iterator<Item = &'a Binding>,
+    ) {
+        for (name, resource) in named(bindings).into_iter().filter(|(name, _)| buffer_row(name).role.is_constant()) {
+            let contents = Contents::of(name, resource, start);
+            let made = self.by_name.get_mut(name).expect("a plan keeps its buffers");
+            assert_eq!(contents.seen, made.seen, "{name} has another size: the model is one of another cloth");
+            *made = contents.make(kernels, name, resource);
+        }
     }
 
     /// The buffer of a name.
@@ -67,7 +87,7 @@ impl Buffers {
 
     /// The buffer of a name, if a kernel of the plan names it.
     pub(crate) fn find(&self, name: &str) -> Option<&wgpu::Buffer> {
-        self.by_name.get(name).map(|made| &made.buffer)
+        self.by_name.get(name).map(|made| &*made.buffer)
     }
 
     /// What a kernel binds of the buffer of a name: all of it, or one entry.
@@ -86,11 +106,16 @@ impl Buffers {
 
     /// The buffers of a role, in the order of their names.
     pub(crate) fn of(&self, role: Role) -> impl Iterator<Item = (&'static str, &wgpu::Buffer)> {
-        self.of_role(role).map(|(name, made)| (name, &made.buffer))
+        self.of_role(role).map(|(name, made)| (name, &*made.buffer))
     }
 
     fn of_role(&self, role: Role) -> impl Iterator<Item = (&'static str, &Made)> {
         self.by_name.iter().filter(move |(_, made)| made.role == role).map(|(name, made)| (*name, made))
+    }
+
+    /// Those that cloths share.
+    pub(crate) fn shared(&self) -> impl Iterator<Item = &wgpu::Buffer> {
+        self.by_name.values().filter(|made| made.role.is_constant()).map(|made| &*made.buffer)
     }
 
     /// Bytes of all buffers.
@@ -192,7 +217,7 @@ impl Contents {
         let size = match &bytes {
             Some(bytes) => bytes.len() as u64,
             None => {
-                assert!(!matches!(row.role, Role::Constant), "the constant buffer {name} has contents");
+                assert!(!row.role.is_constant(), "the constant buffer {name} has contents");
                 // The state is read and written in whole vec4.
                 (stride * count).next_multiple_of(if row.role == Role::State { 16 } else { 4 })
             }
@@ -206,7 +231,7 @@ impl Contents {
         self.all.max(16)
     }
 
-    fn make(self, device: &wgpu::Device, name: &'static str, resource: Resource) -> Made {
+    fn make(self, kernels: &Kernels, name: &'static str, resource: Resource) -> Made {
         use wgpu::BufferUsages as Usage;
         let kind = match resource {
             Resource::Uniform { .. } => Usage::UNIFORM,
@@ -214,8 +239,9 @@ impl Contents {
         };
         let usage = match self.role {
             Role::Dispatches => Usage::INDIRECT,
-            Role::PerSpan | Role::PerStepLeft => Usage::empty(),
-            Role::Constant | Role::PerStep => Usage::COPY_DST,
+            // No copy can write what cloths share.
+            Role::Constant | Role::PerSpan | Role::PerStepLeft => Usage::empty(),
+            Role::Numbers | Role::PerStep => Usage::COPY_DST,
             // Positions and normals are drawn by the host and by the maps of a later garment.
             Role::State | Role::Output | Role::Scratch | Role::Brought => {
                 Usage::VERTEX | Usage::COPY_SRC | Usage::COPY_DST
@@ -223,13 +249,21 @@ impl Contents {
         } | kind;
         let (size, role, seen) = (self.size(), self.role, self.seen);
         let stride = seen.next_multiple_of(ENTRY_ALIGNMENT);
-        let label = Some(name);
+        let (device, label) = (kernels.device(), Some(name));
         let buffer = match self.bytes {
             Some(mut bytes) => {
                 bytes.resize(size as usize, 0);
-                device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label, contents: &bytes, usage })
+                if role.is_constant() {
+                    kernels.constant(name, &bytes, usage)
+                } else {
+                    let descriptor = wgpu::util::BufferInitDescriptor { label, contents: &bytes, usage };
+                    Arc::new(device.create_buffer_init(&descriptor))
+                }
             }
-            None => device.create_buffer(&wgpu::BufferDescriptor { label, size, usage, mapped_at_creation: false }),
+            None => {
+                let descriptor = wgpu::BufferDescriptor { label, size, usage, mapped_at_creation: false };
+                Arc::new(device.create_buffer(&descriptor))
+            }
         };
         Made { buffer, role, seen, stride }
     }

@@ -1,6 +1,7 @@
-//! The pipelines of a device: each made once, for all that runs on it.
+//! What all that runs on a device shares: its pipelines and constant buffers, each made once.
 
 use crate::all_made::AllMade;
+use crate::constants::Constants;
 use crate::maps::SidePipeline;
 use crate::{GpuError, Program};
 #[cfg(not(target_arch = "wasm32"))]
@@ -10,6 +11,9 @@ use toile_kernels::{Kernel, TABLE};
 
 /// The pipelines of a device, each made once: when it is first needed, or all at once by [`Kernels::all_made`]. Cheap to clone; whoever is given the same handle shares
 /// them. What takes `impl Into<Kernels>` also takes a device, and then makes pipelines of its own.
+///
+/// Cloths of the same handle also share the buffers that nothing writes, wherever these hold the same: springs, limits, colours, triangles.
+/// Cloths of equal models have only their state for themselves.
 #[derive(Clone, Debug)]
 pub struct Kernels {
     shared: Arc<Shared>,
@@ -23,6 +27,7 @@ struct Shared {
     programs: Vec<OnceLock<Program>>,
     /// Those that draw the papers' maps, of bodies at rest and of those that move.
     sides: [OnceLock<SidePipeline>; 2],
+    constants: Constants,
 }
 
 impl Kernels {
@@ -39,7 +44,8 @@ impl Kernels {
 
     fn make(device: &wgpu::Device, cache: Option<wgpu::PipelineCache>) -> Self {
         let programs = TABLE.iter().map(|_| OnceLock::new()).collect();
-        Self { shared: Arc::new(Shared { device: device.clone(), cache, programs, sides: Default::default() }) }
+        let (device, sides, constants) = (device.clone(), Default::default(), Constants::default());
+        Self { shared: Arc::new(Shared { device, cache, programs, sides, constants }) }
     }
 
     /// Makes every pipeline that is not there yet, side by side on all cores; in a browser one after the other. It waits until they are made:
@@ -136,9 +142,20 @@ impl Kernels {
         programs + self.shared.sides.iter().filter(|sides| sides.get().is_some()).count()
     }
 
+    /// Bytes of the buffers that cloths share, each counted once: with [`Solver::own_bytes`](crate::Solver::own_bytes) of every cloth it is what the cloths
+    /// take.
+    pub fn shared_bytes(&self) -> u64 {
+        self.shared.constants.bytes()
+    }
+
     /// The device that they are of.
     pub fn device(&self) -> &wgpu::Device {
         &self.shared.device
+    }
+
+    /// A buffer that nothing writes, of these contents.
+    pub(crate) fn constant(&self, name: &'static str, contents: &[u8], usage: wgpu::BufferUsages) -> Arc<wgpu::Buffer> {
+        self.shared.constants.buffer(&self.shared.device, name, contents, usage)
     }
 
     /// The pipeline of a kernel.

@@ -5,6 +5,7 @@
 
 mod all_made;
 mod buffers;
+mod constants;
 pub mod contents;
 mod error;
 mod hosted;

@@ -1,7 +1,7 @@
 //! The solver: records the passes of a plan.
 
 use crate::buffers::{Buffers, Start, aligned, shape_entry};
-use crate::contents::{constant, encoded, uniform};
+use crate::contents::{encoded, uniform};
 use crate::limits::check_limits;
 use crate::status::StatusReader;
 use crate::step_params::{Counts, step_params};
@@ -12,6 +12,7 @@ use glam::DMat4;
 #[cfg(feature = "native-wait")]
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::Arc;
 use toile_kernels::{Kernel, Role, structs};
 use toile_model::{Merge, Model, PinTarget, Status, StepSettings};
 use toile_scene::Shape;
@@ -23,16 +24,16 @@ const DISPATCH_STRIDE: u64 = 16;
 /// What a cloth collides with.
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
-pub struct Colliders<'a> {
+pub struct Colliders {
     /// Mesh bodies and inner garments, as maps.
-    pub maps: Option<&'a BodyMaps>,
+    pub maps: Option<Arc<BodyMaps>>,
     /// Analytic shapes; their order does not matter.
     pub shapes: Vec<Shape>,
 }
 
-impl<'a> Colliders<'a> {
+impl Colliders {
     /// Maps, shapes, or both.
-    pub fn new(maps: Option<&'a BodyMaps>, shapes: Vec<Shape>) -> Self {
+    pub fn new(maps: Option<Arc<BodyMaps>>, shapes: Vec<Shape>) -> Self {
         Self { maps, shapes }
     }
 }
@@ -43,6 +44,8 @@ pub struct Solver {
     settings: StepSettings,
     plan: Plan,
     buffers: Buffers,
+    /// Triangles to draw: no kernel of a step reads them.
+    indices: Arc<wgpu::Buffer>,
     bound: Vec<BoundProgram>,
     step_dispatches: Vec<Dispatch>,
     frame_dispatches: Vec<Dispatch>,
@@ -50,8 +53,7 @@ pub struct Solver {
     /// Whether the device has still to hear of them; of those that move it hears in every step.
     shapes_are_new: bool,
     counts: Counts,
-    /// Whether shapes are sampled after maps.
-    after_maps: bool,
+    maps: Option<Arc<BodyMaps>>,
     status: StatusReader,
     step: u64,
     kernels: Kernels,
@@ -115,37 +117,36 @@ impl Solver {
         kernels: impl Into<Kernels>,
         model: &Model,
         settings: &StepSettings,
-        colliders: Colliders<'_>,
+        Colliders { maps, shapes }: Colliders,
     ) -> Result<Self, GpuError> {
         let kernels = kernels.into();
         let device = kernels.device();
         check_limits(device)?;
-        let maps = colliders.maps.map_or(Maps::None, |maps| Maps::of(maps.space().kind, maps.is_moving()));
-        let plan = Plan::new(model, settings, maps, !colliders.shapes.is_empty());
+        let kind = maps.as_ref().map_or(Maps::None, |maps| Maps::of(maps.space().kind, maps.is_moving()));
+        let plan = Plan::new(model, settings, kind, !shapes.is_empty());
         let programs: Vec<_> = plan.kernels().into_iter().map(|kernel| (kernel, kernels.program(kernel))).collect();
         let bindings = programs.iter().flat_map(|(_, program)| &program.interface().bindings);
-        let start =
-            Start { model, settings, plan: &plan, shapes: &colliders.shapes, after_maps: colliders.maps.is_some() };
-        let buffers = Buffers::new(device, start, bindings)?;
+        let start = Start { model, settings, plan: &plan, shapes: &shapes, after_maps: maps.is_some() };
+        let buffers = Buffers::new(&kernels, start, bindings)?;
         let bound = |(kernel, program): (Kernel, Program)| {
-            let group = program.bind(device, |binding| {
-                let map = colliders.maps.and_then(|maps| maps.resource(&binding.name));
-                map.unwrap_or_else(|| buffers.binding(&binding.name))
-            });
+            let group = bind(device, &program, &buffers, maps.as_deref());
             BoundProgram { kernel, program, group }
         };
         let bound: Vec<_> = programs.into_iter().map(bound).collect();
+        let triangles = model.triangles();
+        let usage = wgpu::BufferUsages::INDEX | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
         let resolved = |passes: &[Pass]| passes.iter().map(|pass| Dispatch::of(pass, &bound, &buffers)).collect();
         Ok(Self {
             settings: settings.clone(),
             step_dispatches: resolved(&plan.step),
             frame_dispatches: resolved(&plan.frame),
             plan,
+            indices: kernels.constant("indices", bytemuck::cast_slice(&triangles), usage),
             bound,
-            shapes: colliders.shapes,
+            shapes,
             shapes_are_new: false,
             counts: Counts::of(model),
-            after_maps: colliders.maps.is_some(),
+            maps,
             status: StatusReader::new(device),
             step: 0,
             buffers,
@@ -383,40 +384,33 @@ impl Solver {
             "a cloth without air gets none while it runs, and one without pressure no pressure: begin with a calm, or a small pressure"
         );
         self.settings = settings.clone();
-        self.record_constant(device, encoder, "step", &uniform(&step_params(self.counts, settings, self.after_maps)));
+        // Not a queue write: the caller may record several frames before submitting any.
+        let upload = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("step"),
+            contents: &uniform(&step_params(self.counts, settings, self.maps.is_some())),
+            usage: wgpu::BufferUsages::COPY_SRC,
+        });
+        encoder.copy_buffer_to_buffer(&upload, 0, self.buffers.get("step"), 0, upload.size());
     }
 
-    /// Records other numbers of springs and limits, from a model that differs in nothing else: they hold for what is recorded from now on.
+    /// Takes other numbers of springs and limits, from a model that differs in nothing else: they hold for what is recorded from now on. Cloths that share
+    /// the buffers of the model before keep them.
     ///
     /// # Panics
     /// When the model has another number of anything.
-    pub fn record_model(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, model: &Model) {
+    pub fn set_model(&mut self, model: &Model) {
         assert_eq!(
             self.counts,
             Counts::of(model),
             "the numbers of a cloth change while it runs, not what it is made of"
         );
-        let names: Vec<&'static str> = self.buffers.of(Role::Constant).map(|(name, _)| name).collect();
-        for name in names {
-            if let Some(bytes) = constant(name, model, &self.settings, self.after_maps) {
-                self.record_constant(device, encoder, name, &bytes);
-            }
+        let Self { kernels, plan, settings, shapes, maps, buffers, bound, .. } = self;
+        let start = Start { model, settings, plan, shapes, after_maps: maps.is_some() };
+        let bindings = bound.iter().flat_map(|bound| &bound.program.interface().bindings);
+        buffers.take_constants(kernels, start, bindings);
+        for bound in bound {
+            bound.group = bind(kernels.device(), &bound.program, buffers, maps.as_deref());
         }
-    }
-
-    /// Records other contents of a constant buffer: not a queue write, as the caller may record several frames before submitting any.
-    fn record_constant(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, name: &str, bytes: &[u8]) {
-        let buffer = self.buffers.get(name);
-        assert!(bytes.len() as u64 <= buffer.size(), "{name} has another size: the model is one of another cloth");
-        if bytes.is_empty() {
-            return;
-        }
-        let upload = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some(name),
-            contents: bytes,
-            usage: wgpu::BufferUsages::COPY_SRC,
-        });
-        encoder.copy_buffer_to_buffer(&upload, 0, buffer, 0, bytes.len() as u64);
     }
 
     /// Has other shapes from the next step on, as many as before.
@@ -515,9 +509,24 @@ impl Solver {
         self.step
     }
 
-    /// Bytes of all buffers; maps are counted by [`BodyMaps::bytes`].
+    /// Particle indices (u32), three per triangle, counter-clockwise seen from outside; usage `INDEX`, `STORAGE`, `COPY_SRC`. Cloths share it.
+    pub fn indices(&self) -> &wgpu::Buffer {
+        &self.indices
+    }
+
+    /// Bytes of all buffers, those that it shares too; maps are counted by [`BodyMaps::bytes`].
     pub fn bytes(&self) -> u64 {
-        self.buffers.bytes()
+        self.buffers.bytes() + self.indices.size()
+    }
+
+    /// Bytes of its buffers but those that it shares; [`Kernels::shared_bytes`] has these, once for all cloths.
+    pub fn own_bytes(&self) -> u64 {
+        self.bytes() - self.shared().map(wgpu::Buffer::size).sum::<u64>()
+    }
+
+    /// The buffers that nothing writes: cloths of the same [`Kernels`] share those that hold the same.
+    pub fn shared(&self) -> impl Iterator<Item = &wgpu::Buffer> {
+        self.buffers.shared().chain([self.indices()])
     }
 
     /// Name and bytes of each buffer.
@@ -585,6 +594,14 @@ impl Dispatch {
         };
         Self { bound: place, offset, work }
     }
+}
+
+/// What a kernel of a plan names: maps, or buffers.
+fn bind(device: &wgpu::Device, program: &Program, buffers: &Buffers, maps: Option<&BodyMaps>) -> wgpu::BindGroup {
+    program.bind(device, |binding| {
+        let map = maps.and_then(|maps| maps.resource(&binding.name));
+        map.unwrap_or_else(|| buffers.binding(&binding.name))
+    })
 }
 
 /// A compute pass with a name that tools of a driver show.

@@ -39,6 +39,8 @@ pub enum Per {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// Changed by the host alone, between steps.
+    Numbers,
+    /// Never written once it is made: cloths for which it holds the same share it.
     Constant,
     /// Carries over from step to step: all that a saved simulation needs.
     State,
@@ -59,6 +61,11 @@ pub enum Role {
 }
 
 impl Role {
+    /// Whether nothing writes the buffer once it is made: cloths for which it holds the same share it.
+    pub fn is_constant(self) -> bool {
+        matches!(self, Self::Constant | Self::PerSpan | Self::PerStepLeft)
+    }
+
     /// Whether the buffer has entries, one of which a dispatch sees.
     pub fn has_entries(self) -> bool {
         matches!(self, Self::PerSpan | Self::PerStepLeft | Self::PerStep)
@@ -73,7 +80,7 @@ macro_rules! buffers {
 }
 
 buffers! {
-    "step" Cloth Constant;
+    "step" Cloth Numbers;
     "span" Listed PerSpan;
     "lag" Cloth PerStepLeft;
     "shapes" Listed PerStep;

@@ -1,7 +1,7 @@
 //! Every kernel is valid WGSL under the limits of WebGPU, and says of itself what the table says.
 
 use std::collections::BTreeSet;
-use toile_kernels::{BUFFERS, Domain, Interface, Resource, TABLE, WORKGROUP_SIZE};
+use toile_kernels::{BUFFERS, Domain, Interface, Resource, TABLE, WORKGROUP_SIZE, buffer_row};
 
 #[test]
 fn every_kernel_is_named_like_its_entry_point_and_fits_the_default_limits() {
@@ -39,6 +39,17 @@ fn the_buffer_table_has_each_buffer_of_the_kernels_once_and_no_other() {
     let rows: BTreeSet<String> = BUFFERS.iter().map(|row| row.name.to_owned()).collect();
     assert_eq!(rows, named);
     assert_eq!(rows.len(), BUFFERS.len());
+}
+
+/// Cloths share it.
+#[test]
+fn no_kernel_writes_a_constant_buffer() {
+    let bindings = TABLE.iter().flat_map(|row| Interface::of(row.kernel).bindings);
+    let written = bindings.filter(|binding| matches!(binding.resource, Resource::Storage { written: true, .. }));
+    let rows: Vec<_> = written.map(|binding| buffer_row(&binding.name)).collect();
+    assert!(rows.iter().any(|row| row.name == "positions"));
+    let constant: Vec<_> = rows.iter().filter(|row| row.role.is_constant()).map(|row| row.name).collect();
+    assert!(constant.is_empty(), "kernels write {constant:?}");
 }
 
 /// A dispatch gives one dynamic offset.

@@ -10,7 +10,6 @@ use toile_gpu::{BodyMaps, Kernels, Mark, Plan, Solver};
 use toile_gpu::{Kernel, PassTime, Timer};
 use toile_model::{Merge, Model, ModelError, PinTarget, Status, StepSettings};
 use toile_scene::Shape;
-use wgpu::util::DeviceExt;
 
 /// What a cloth collides with.
 #[derive(Clone, Debug, Default)]
@@ -28,8 +27,8 @@ impl Colliders {
         Self { maps, shapes }
     }
 
-    fn borrowed(&self) -> toile_gpu::Colliders<'_> {
-        toile_gpu::Colliders::new(self.maps.as_deref(), self.shapes.clone())
+    fn of_solver(&self) -> toile_gpu::Colliders {
+        toile_gpu::Colliders::new(self.maps.clone(), self.shapes.clone())
     }
 }
 
@@ -61,7 +60,7 @@ pub struct Cloth {
 }
 
 impl Cloth {
-    /// A cloth at the start of its model; `kernels` is a device, or the pipelines that other cloths on it use.
+    /// A cloth at the start of its model; `kernels` is a device, or what other cloths on it use: their pipelines, and the buffers of equal models.
     ///
     /// # Errors
     /// [`Error::Model`] when a number of the step or of a shape is out of its range, or the step is none of this model's: see
@@ -76,25 +75,16 @@ impl Cloth {
         let kernels = kernels.into();
         settings.check_with(model)?;
         colliders.shapes.iter().try_for_each(Shape::check).map_err(ModelError::from)?;
-        let solver = Solver::new(&kernels, model, settings, colliders.borrowed())?;
-        Ok(Self::with_solver(kernels.device(), model, solver, colliders))
-    }
-
-    fn with_solver(device: &wgpu::Device, model: &Model, solver: Solver, colliders: Colliders) -> Self {
-        let triangles = model.triangles();
-        let indices = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("cloth indices"),
-            contents: bytemuck::cast_slice(&triangles),
-            usage: wgpu::BufferUsages::INDEX | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
-        });
+        let solver = Solver::new(&kernels, model, settings, colliders.of_solver())?;
+        let indices = solver.indices().clone();
         let frame = Frame {
             positions: solver.positions().clone(),
             normals: solver.normals().clone(),
+            index_count: (indices.size() / size_of::<u32>() as u64) as u32,
             indices,
             particle_count: model.particle_count(),
-            index_count: 3 * triangles.len() as u32,
         };
-        Self { solver, colliders, frame }
+        Ok(Self { solver, colliders, frame })
     }
 
     /// Records one frame into the caller's encoder: its steps, then normals and status. What is recorded counts as done, so an encoder that
@@ -162,13 +152,13 @@ impl Cloth {
         self.solver.record_settings(device, encoder, settings);
     }
 
-    /// Records other numbers of springs and limits: stiffness, rigidity and threshold, from a model of the same cloth. They hold for what is
-    /// recorded from now on.
+    /// Takes other numbers of springs and limits: stiffness, rigidity and threshold, from a model of the same cloth. They hold for what is
+    /// recorded from now on. Cloths that share the buffers of the model before keep them.
     ///
     /// # Panics
     /// When the model is one of another cloth.
-    pub fn record_model(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, model: &Model) {
-        self.solver.record_model(device, encoder, model);
+    pub fn set_model(&mut self, model: &Model) {
+        self.solver.set_model(model);
     }
 
     /// Records that the host holds particles, moves them or lets them go, each named once. One that moves keeps the velocity that it gets, so
@@ -316,9 +306,22 @@ impl Cloth {
         self.solver.step()
     }
 
-    /// Bytes on the device: buffers, indices, and the maps of the bodies.
+    /// Bytes on the device: all buffers, those that it shares too, and the maps of the bodies.
     pub fn bytes(&self) -> u64 {
-        let maps = self.colliders.maps.as_ref().map_or(0, |maps| maps.bytes());
-        self.solver.bytes() + self.frame.indices.size() + maps
+        self.solver.bytes() + self.map_bytes()
+    }
+
+    /// Bytes on the device but those of the buffers that it shares; [`Kernels::shared_bytes`] has these, once for all cloths.
+    pub fn own_bytes(&self) -> u64 {
+        self.solver.own_bytes() + self.map_bytes()
+    }
+
+    /// The buffers that it shares with cloths that have the same contents.
+    pub(crate) fn shared(&self) -> impl Iterator<Item = &wgpu::Buffer> {
+        self.solver.shared()
+    }
+
+    fn map_bytes(&self) -> u64 {
+        self.colliders.maps.as_ref().map_or(0, |maps| maps.bytes())
     }
 }

@@ -126,7 +126,7 @@ impl Simulation {
         let told: Vec<_> = worn.zip(stages).map(|(piece, of)| (piece.model_of(of), step(piece, of))).collect();
         for ((model, step), cloth) in told.iter().zip(self.cloths_mut()) {
             if changes_model {
-                cloth.record_model(&device, encoder, model);
+                cloth.set_model(model);
             }
             cloth.record_settings(&device, encoder, step);
         }

@@ -10,7 +10,8 @@ pub struct Frame {
     pub positions: wgpu::Buffer,
     /// Unit normals out of the cloth, vec4 each, xyz used; zero before the first frame. Usage `VERTEX | STORAGE | COPY_SRC | COPY_DST`.
     pub normals: wgpu::Buffer,
-    /// Particle indices (u32), three per triangle, counter-clockwise seen from outside; usage `INDEX | STORAGE | COPY_SRC`.
+    /// Particle indices (u32), three per triangle, counter-clockwise seen from outside; usage `INDEX | STORAGE | COPY_SRC`. Cloths of equal models share
+    /// it, so a host only reads it.
     pub indices: wgpu::Buffer,
     /// Number of particles.
     pub particle_count: u32,

@@ -5,6 +5,7 @@ use crate::outfit::Teleport;
 use crate::simulation::{Phase, Simulation, Worn};
 use crate::stage::Stage;
 use glam::DVec3;
+use std::collections::BTreeSet;
 use toile_gpu::Surface;
 use toile_model::{Dressing, DressingStage, Finding, MapBox};
 
@@ -117,9 +118,11 @@ impl Simulation {
         }
     }
 
-    /// Bytes on the device.
+    /// Bytes on the device. What its cloths share counts once, also where cloths of other simulations have it too.
     pub fn bytes(&self) -> u64 {
-        let cloths: u64 = self.cloths().map(|worn| worn.cloth.bytes()).sum();
+        let shared: BTreeSet<&wgpu::Buffer> = self.cloths().flat_map(|worn| worn.cloth.shared()).collect();
+        let own: u64 = self.cloths().map(|worn| worn.cloth.own_bytes()).sum();
+        let cloths = own + shared.into_iter().map(wgpu::Buffer::size).sum::<u64>();
         match &self.phase {
             Phase::Dressing(_) => cloths,
             Phase::Together { outfit, .. } => cloths + outfit.bytes(),
