@@ -5,7 +5,6 @@ use crate::outfit::Teleport;
 use crate::simulation::{Phase, Simulation, Worn};
 use crate::stage::Stage;
 use glam::DVec3;
-use std::collections::BTreeSet;
 use toile_gpu::Surface;
 use toile_model::{Dressing, DressingStage, Finding, MapBox};
 
@@ -120,7 +119,12 @@ impl Simulation {
 
     /// Bytes on the device. What its cloths share counts once, also where cloths of other simulations have it too.
     pub fn bytes(&self) -> u64 {
-        let shared: BTreeSet<&wgpu::Buffer> = self.cloths().flat_map(|worn| worn.cloth.shared()).collect();
+        let mut shared: Vec<&wgpu::Buffer> = Vec::new();
+        for buffer in self.cloths().flat_map(|worn| worn.cloth.shared()) {
+            if !shared.contains(&buffer) {
+                shared.push(buffer);
+            }
+        }
         let own: u64 = self.cloths().map(|worn| worn.cloth.own_bytes()).sum();
         let cloths = own + shared.into_iter().map(wgpu::Buffer::size).sum::<u64>();
         match &self.phase {
