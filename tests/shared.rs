@@ -221,7 +221,15 @@ fn a_simulation_counts_once_what_its_cloths_share() {
     sheet.fabric = Some(with(alike.settings.fabric.clone(), |fabric| fabric.threshold = Threshold::even(0.1)));
     let [alike, unlike] = [alike, unlike].map(|scene| {
         let kernels = Kernels::new(&gpu().device);
-        let simulation = Simulation::new(&kernels, &scene).expect("it can be simulated");
+        let mut simulation = Simulation::new(&kernels, &scene).expect("it can be simulated");
+        // The lower one is put on once it is known where the upper one hangs.
+        for _ in 0..200 {
+            if simulation.cloths().count() == 2 {
+                break;
+            }
+            gpu().run(|encoder| simulation.advance(encoder, 1.0 / 60.0).map(drop).expect("it goes on"));
+        }
+        assert_eq!(simulation.cloths().count(), 2);
         let own: u64 = simulation.cloths().map(|worn| worn.cloth.own_bytes()).sum();
         let shared = kernels.shared_bytes();
         // What is left is what the lower one sees of the upper one.
