@@ -4,10 +4,12 @@ use glam::{DVec3, Vec3, dvec3, vec3};
 use std::collections::BTreeMap;
 use toile::{Cloth, Colliders};
 use toile_lab::fixtures::scene;
-use toile_lab::with;
+use toile_lab::{DrawnMaps, with};
 use toile_model::{Model, PinTarget, StepSettings};
 use toile_reference::Reference;
-use toile_scene::{Cloth as Cut, RigidKey, RigidMotion, Scene, Settings, Shape, ShapeMotion, Sheet, Wind};
+use toile_scene::{
+    Cloth as Cut, MapKind, Mesh, RigidKey, RigidMotion, Scene, Settings, Shape, ShapeMotion, Sheet, Wind,
+};
 use toile_workspace::gpu;
 
 /// Where a sphere touches nothing [m].
@@ -30,6 +32,11 @@ impl Twin {
 
     /// The same of so many particles on a side and of a bending rigidity [N·m].
     fn new(n: &str, rigidity: f64) -> Self {
+        Self::beside(n, rigidity, None)
+    }
+
+    /// The same beside a body, too, in maps.
+    fn beside(n: &str, rigidity: f64, body: Option<&DrawnMaps>) -> Self {
         let Scene { mut settings, mut cloths, .. } = scene("hang", &[("n", n)]);
         settings.fabric.bending_rigidity = rigidity;
         settings.wind = Some(with(Wind::new(DVec3::ZERO), |wind| wind.pressure = 0.01));
@@ -37,9 +44,10 @@ impl Twin {
         let shapes = vec![Shape::sphere(BELOW, 0.2)];
         let model = Model::from_sheet(&sheet, &settings);
         let step = StepSettings::new(&settings, &model);
-        let colliders = Colliders::new(None, shapes.clone());
+        let colliders = Colliders::new(body.map(|body| body.maps.clone()), shapes.clone());
         let cloth = Cloth::new(&gpu().device, &model, &step, colliders).expect("it fits the device");
-        let reference = Reference::new(&model, &step, toile_reference::Colliders::new(None, shapes));
+        let read = body.map(|body| body.read.clone());
+        let reference = Reference::new(&model, &step, toile_reference::Colliders::new(read, shapes));
         Self { sheet, settings, model, cloth, reference }
     }
 
@@ -49,9 +57,7 @@ impl Twin {
         let step = self.cloth.settings().with_numbers_of(&self.settings);
         let model = Model::from_sheet(&self.sheet, &self.settings);
         self.cloth.set_model(&model);
-        gpu().run(|encoder| {
-            self.cloth.record_settings(&gpu().device, encoder, &step);
-        });
+        gpu().run(|encoder| self.cloth.record_settings(&gpu().device, encoder, &step));
         self.reference.set_model(&model);
         self.reference.set_settings(&step);
         self.model = model;
@@ -169,6 +175,24 @@ fn threshold_and_stiffness_change_within_the_step() {
     twin.agree("tight again");
     let tight = elongation(&twin);
     assert!(tight < 0.025, "it is stretched by {tight}");
+}
+
+/// What is bound anew are maps, too.
+#[test]
+fn a_fabric_changes_on_a_body() {
+    let body = Mesh::sphere(vec3(0.5, -0.35, 0.5), 0.25, 24);
+    let body = DrawnMaps::draw(gpu(), MapKind::Layers, &[(&body, 0.0)], 0.02).expect("the device answers");
+    let mut twin = Twin::beside("16", 0.0, Some(&body));
+    twin.frames(25);
+    let touching = |twin: &Twin| twin.reference.contacts().iter().filter(|contact| contact.touching).count();
+    assert!(touching(&twin) > 0, "it lies on the body");
+    twin.change(|settings| {
+        settings.fabric.threshold = toile_scene::Threshold::even(0.15);
+        settings.fabric.structural_stiffness = 2.0;
+    });
+    twin.frames(15);
+    twin.agree("softer and looser on a body");
+    assert!(touching(&twin) > 0, "it still lies there");
 }
 
 #[test]

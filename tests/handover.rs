@@ -36,8 +36,8 @@ fn mean(vectors: &[Vec3], masses: &[f32]) -> DVec3 {
 /// State of an open solver after some frames, and of the sewn one right after the handover: positions and velocities.
 fn hand_over(skirt: &Skirt) -> [[Vec<Vec3>; 2]; 2] {
     let device = &gpu().device;
-    let mut open = Solver::new(device, &skirt.open, &skirt.sewing, Default::default()).expect("it fits the device");
-    let mut sewn = Solver::new(device, &skirt.sewn, &skirt.draping, Default::default()).expect("it fits the device");
+    let mut open = Solver::new(device, &skirt.open, &skirt.sewing, None, Vec::new()).expect("it fits the device");
+    let mut sewn = Solver::new(device, &skirt.sewn, &skirt.draping, None, Vec::new()).expect("it fits the device");
     gpu().run(|encoder| {
         open.record_frame(device, encoder);
         open.record_frame(device, encoder);

@@ -1,7 +1,7 @@
 //! What a plan has of the maps.
 
 use glam::{Vec3, vec3};
-use toile_gpu::{Colliders, Plan, Solver};
+use toile_gpu::{Plan, Solver};
 use toile_kernels::{Need, TABLE};
 use toile_lab::DrawnMaps;
 use toile_lab::fixtures::{scene, sheet_model};
@@ -23,7 +23,7 @@ fn sheet(rule: Rule) -> (Model, StepSettings) {
 #[test]
 fn without_a_body_nothing_of_the_contacts_exists() {
     let (model, settings) = sheet(Rule::Predictive);
-    let solver = Solver::new(&gpu().device, &model, &settings, Colliders::default()).expect("it fits the device");
+    let solver = Solver::new(&gpu().device, &model, &settings, None, Vec::new()).expect("it fits the device");
     let contact =
         [Need::Body, Need::StillSides, Need::MovingSides, Need::StillLayers, Need::MovingLayers, Need::Shapes];
     for kernel in solver.plan().kernels() {

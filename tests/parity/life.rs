@@ -1,7 +1,7 @@
 //! The same cloth on the device and in the reference, compared after every step.
 
 use crate::drivers::{FLUSHES, first_beyond};
-use toile_gpu::{Colliders, Solver};
+use toile_gpu::Solver;
 use toile_lab::DrawnMaps;
 use toile_lab::kernels::vec3_words;
 use toile_model::{Merge, Model, Status, StepSettings};
@@ -36,8 +36,9 @@ pub struct Life {
 
 impl Life {
     pub fn new(model: &Model, settings: &StepSettings, layers: Option<&DrawnMaps>, shapes: Vec<Shape>) -> Self {
-        let colliders = Colliders::new(layers.map(|layers| layers.maps.clone()), shapes.clone());
-        let solver = Solver::new(&gpu().device, model, settings, colliders).expect("the model fits the device");
+        let maps = layers.map(|layers| layers.maps.clone());
+        let solver =
+            Solver::new(&gpu().device, model, settings, maps, shapes.clone()).expect("the model fits the device");
         let maps = layers.map(|layers| layers.read.clone());
         let reference = Reference::new(model, settings, toile_reference::Colliders::new(maps, shapes));
         Self { solver, reference, contacts_max: 0 }
@@ -108,8 +109,9 @@ impl Life {
 
     /// The handover to the sewn model on both sides.
     pub fn sewn(self, model: &Model, merge: &Merge, settings: &StepSettings, layers: Option<&DrawnMaps>) -> Self {
-        let colliders = Colliders::new(layers.map(|layers| layers.maps.clone()), Vec::new());
-        let mut solver = Solver::new(&gpu().device, model, settings, colliders).expect("the model fits the device");
+        let maps = layers.map(|layers| layers.maps.clone());
+        let mut solver =
+            Solver::new(&gpu().device, model, settings, maps, Vec::new()).expect("the model fits the device");
         gpu().run(|encoder| solver.record_merge(&gpu().device, encoder, &self.solver, merge));
         Self { solver, reference: self.reference.sewn(model, settings, merge), contacts_max: 0 }
     }

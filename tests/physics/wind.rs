@@ -38,7 +38,7 @@ impl Run {
     fn new(sheet: &Sheet, settings: &Settings, change: impl FnOnce(&mut Arrays)) -> Self {
         let model = Model::from_sheet(sheet, settings).changed(change).expect("arrays that fit together");
         let settings = StepSettings::new(settings, &model);
-        let solver = Solver::new(&gpu().device, &model, &settings, Default::default()).expect("it fits the device");
+        let solver = Solver::new(&gpu().device, &model, &settings, None, Vec::new()).expect("it fits the device");
         Self { model, settings, solver }
     }
 

@@ -41,7 +41,7 @@ pub use plan::{KernelRuns, Pass, Plan, kernel_runs};
 pub use program::Program;
 pub use raised::Raised;
 pub use slot::Arrival;
-pub use solver::{Colliders, Solver};
+pub use solver::Solver;
 #[cfg(feature = "native-wait")]
 pub use timing::{PassTime, Timer};
 pub use toile_kernels::Kernel;

@@ -21,23 +21,6 @@ use wgpu::util::DeviceExt;
 /// Bytes from one entry of the dispatches to the next: three words for the dispatch, and one that fills the vec4.
 const DISPATCH_STRIDE: u64 = 16;
 
-/// What a cloth collides with.
-#[derive(Clone, Debug, Default)]
-#[non_exhaustive]
-pub struct Colliders {
-    /// Mesh bodies and inner garments, as maps.
-    pub maps: Option<Arc<BodyMaps>>,
-    /// Analytic shapes; their order does not matter.
-    pub shapes: Vec<Shape>,
-}
-
-impl Colliders {
-    /// Maps, shapes, or both.
-    pub fn new(maps: Option<Arc<BodyMaps>>, shapes: Vec<Shape>) -> Self {
-        Self { maps, shapes }
-    }
-}
-
 /// One cloth on a device.
 #[derive(Debug)]
 pub struct Solver {
@@ -105,8 +88,8 @@ enum Work {
 }
 
 impl Solver {
-    /// Builds the buffers that the model needs, and those pipelines that nobody has made before; `kernels` is a device, or the pipelines that
-    /// others on it use.
+    /// Builds the buffers that the model needs, and those pipelines that nobody has made before; `kernels` is a device, or what others on it use.
+    /// The cloth collides with mesh bodies and inner garments, as `maps`, and with `shapes`, whose order does not matter.
     ///
     /// # Errors
     /// [`GpuError::BufferTooLarge`] when the model does not fit the device, [`GpuError::LimitTooLow`] when the kernels do not.
@@ -117,7 +100,8 @@ impl Solver {
         kernels: impl Into<Kernels>,
         model: &Model,
         settings: &StepSettings,
-        Colliders { maps, shapes }: Colliders,
+        maps: Option<Arc<BodyMaps>>,
+        shapes: Vec<Shape>,
     ) -> Result<Self, GpuError> {
         let kernels = kernels.into();
         let device = kernels.device();
@@ -384,13 +368,8 @@ impl Solver {
             "a cloth without air gets none while it runs, and one without pressure no pressure: begin with a calm, or a small pressure"
         );
         self.settings = settings.clone();
-        // Not a queue write: the caller may record several frames before submitting any.
-        let upload = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("step"),
-            contents: &uniform(&step_params(self.counts, settings, self.maps.is_some())),
-            usage: wgpu::BufferUsages::COPY_SRC,
-        });
-        encoder.copy_buffer_to_buffer(&upload, 0, self.buffers.get("step"), 0, upload.size());
+        let numbers = uniform(&step_params(self.counts, settings, self.maps.is_some()));
+        record_contents(device, encoder, self.buffers.get("step"), &numbers);
     }
 
     /// Takes other numbers of springs and limits, from a model that differs in nothing else: they hold for what is recorded from now on. Cloths that share
@@ -411,6 +390,16 @@ impl Solver {
         for bound in bound {
             bound.group = bind(kernels.device(), &bound.program, buffers, maps.as_deref());
         }
+    }
+
+    /// The maps of what it collides with; `None` without any.
+    pub fn maps(&self) -> Option<&Arc<BodyMaps>> {
+        self.maps.as_ref()
+    }
+
+    /// The shapes that it collides with.
+    pub fn shapes(&self) -> &[Shape] {
+        &self.shapes
     }
 
     /// Has other shapes from the next step on, as many as before.
@@ -568,14 +557,8 @@ impl Solver {
         let count = if still { self.settings.steps_per_frame } else { count };
         let steps = self.step..self.step + u64::from(count);
         let bytes = aligned(steps.map(|step| shape_entry(&self.shapes, step, &self.settings)));
-        let Some((name, shapes)) = self.buffers.of(Role::PerStep).next() else { return };
-        // A buffer of its own, not a queue write: the caller may record several frames before submitting any.
-        let upload = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some(name),
-            contents: &bytes,
-            usage: wgpu::BufferUsages::COPY_SRC,
-        });
-        encoder.copy_buffer_to_buffer(&upload, 0, shapes, 0, bytes.len() as u64);
+        let Some((_, shapes)) = self.buffers.of(Role::PerStep).next() else { return };
+        record_contents(device, encoder, shapes, &bytes);
     }
 }
 
@@ -594,6 +577,13 @@ impl Dispatch {
         };
         Self { bound: place, offset, work }
     }
+}
+
+/// Records other contents of a buffer. Not a queue write: the caller may record several frames before submitting any.
+fn record_contents(device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, buffer: &wgpu::Buffer, contents: &[u8]) {
+    let usage = wgpu::BufferUsages::COPY_SRC;
+    let upload = device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: None, contents, usage });
+    encoder.copy_buffer_to_buffer(&upload, 0, buffer, 0, upload.size());
 }
 
 /// What a kernel of a plan names: maps, or buffers.

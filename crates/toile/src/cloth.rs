@@ -26,10 +26,6 @@ impl Colliders {
     pub fn new(maps: Option<Arc<BodyMaps>>, shapes: Vec<Shape>) -> Self {
         Self { maps, shapes }
     }
-
-    fn of_solver(&self) -> toile_gpu::Colliders {
-        toile_gpu::Colliders::new(self.maps.clone(), self.shapes.clone())
-    }
 }
 
 /// One cloth, simulated on the caller's device.
@@ -55,7 +51,6 @@ impl Colliders {
 #[derive(Debug)]
 pub struct Cloth {
     solver: Solver,
-    colliders: Colliders,
     frame: Frame,
 }
 
@@ -75,7 +70,7 @@ impl Cloth {
         let kernels = kernels.into();
         settings.check_with(model)?;
         colliders.shapes.iter().try_for_each(Shape::check).map_err(ModelError::from)?;
-        let solver = Solver::new(&kernels, model, settings, colliders.of_solver())?;
+        let solver = Solver::new(&kernels, model, settings, colliders.maps, colliders.shapes)?;
         let indices = solver.indices().clone();
         let frame = Frame {
             positions: solver.positions().clone(),
@@ -84,7 +79,7 @@ impl Cloth {
             indices,
             particle_count: model.particle_count(),
         };
-        Ok(Self { solver, colliders, frame })
+        Ok(Self { solver, frame })
     }
 
     /// Records one frame into the caller's encoder: its steps, then normals and status. What is recorded counts as done, so an encoder that
@@ -105,7 +100,8 @@ impl Cloth {
         merge: &Merge,
         settings: &StepSettings,
     ) -> Result<Self, Error> {
-        let mut sewn = Self::new(self.solver.kernels(), model, settings, self.colliders.clone())?;
+        let colliders = Colliders::new(self.solver.maps().cloned(), self.solver.shapes().to_vec());
+        let mut sewn = Self::new(self.solver.kernels(), model, settings, colliders)?;
         sewn.solver.record_merge(device, encoder, &self.solver, merge);
         sewn.solver.record_outputs(encoder);
         Ok(sewn)
@@ -176,7 +172,6 @@ impl Cloth {
     /// When there are more shapes than before, or fewer, or a number of one is out of its range.
     pub fn set_shapes(&mut self, shapes: Vec<Shape>) {
         shapes.iter().try_for_each(Shape::check).unwrap_or_else(|error| panic!("{error}"));
-        self.colliders.shapes.clone_from(&shapes);
         self.solver.set_shapes(shapes);
     }
 
@@ -298,7 +293,7 @@ impl Cloth {
 
     /// The maps of what it collides with; `None` without any.
     pub fn maps(&self) -> Option<&BodyMaps> {
-        self.colliders.maps.as_deref()
+        self.solver.maps().map(Arc::as_ref)
     }
 
     /// Steps recorded so far.
@@ -322,6 +317,6 @@ impl Cloth {
     }
 
     fn map_bytes(&self) -> u64 {
-        self.colliders.maps.as_ref().map_or(0, |maps| maps.bytes())
+        self.maps().map_or(0, BodyMaps::bytes)
     }
 }
