@@ -26,7 +26,7 @@ pub struct Run {
 pub struct StepCost {
     /// Name, dispatches per step and time [ms] of each kernel, in the order of the algorithm.
     pub kernels: Vec<(&'static str, u32, f64)>,
-    /// Time of a copy of the whole state [ms].
+    /// Time of a copy of the whole state [ms]; 0 when the clock was too coarse for it.
     pub state_copy: f64,
 }
 
@@ -184,14 +184,19 @@ impl StepCost {
         Ok(Self { kernels, state_copy: copies.first().map_or(0.0, |(.., milliseconds)| *milliseconds) })
     }
 
-    /// Time of a step [ms].
+    /// Time of a step [ms]; 0 when the clock was too coarse for any of its kernels.
     pub fn milliseconds(&self) -> f64 {
         self.kernels.iter().map(|(_, _, milliseconds)| milliseconds).sum()
     }
 
-    /// Cost of a step [state copies]; `None` when the clock was too coarse for a copy.
+    /// Cost of a step [state copies]; `None` when the clock was too coarse for it or for a copy.
     pub fn copies(&self) -> Option<f64> {
-        (self.state_copy > 0.0).then(|| self.milliseconds() / self.state_copy)
+        self.in_copies(self.milliseconds())
+    }
+
+    /// A time [ms] in state copies; `None` when the clock was too coarse for it or for a copy.
+    pub fn in_copies(&self, milliseconds: f64) -> Option<f64> {
+        (milliseconds > 0.0 && self.state_copy > 0.0).then(|| milliseconds / self.state_copy)
     }
 }
 

@@ -49,10 +49,10 @@ pub struct Speed {
     pub bytes: u64,
     /// Time of a frame by the clock of the host [ms].
     pub frame: f64,
-    /// Time of its kernels by the device's clock [ms].
-    pub kernels: f64,
-    /// Time of a copy of the state [ms]; 0 when the clock was too coarse for it.
-    pub state_copy: f64,
+    /// Time of its kernels by the device's clock [ms]; `None` when the clock was too coarse for them.
+    pub kernels: Option<f64>,
+    /// Time of a copy of the state [ms]; `None` when the clock was too coarse for it.
+    pub state_copy: Option<f64>,
     /// Largest elongation at the end of any frame, and 99th percentile at the last [1]; `None` where the time was over.
     pub strain: Option<[f64; 2]>,
 }
@@ -107,14 +107,15 @@ pub fn measure(lab: &Lab, name: &str, n: u32, frames: u32, left: Duration) -> Re
     // Reading the positions back takes time too, but less than a frame.
     let strain = (2 * frames * frame < left).then(|| strain(lab, &mut run, frames)).transpose()?;
     let cost = run.cost(lab, TIMED)?;
+    let seen = |milliseconds: f64| (milliseconds > 0.0).then_some(milliseconds);
     Ok(Speed {
         n,
         steps: run.step.steps_per_frame,
         dispatches,
         bytes,
         frame: 1e3 * frame.as_secs_f64(),
-        kernels: f64::from(run.step.steps_per_frame) * cost.milliseconds(),
-        state_copy: cost.state_copy,
+        kernels: seen(f64::from(run.step.steps_per_frame) * cost.milliseconds()),
+        state_copy: seen(cost.state_copy),
         strain,
     })
 }
@@ -244,20 +245,20 @@ fn table(words: &str, speeds: &[Speed], lab: &Lab) -> Table {
     );
     for speed in speeds {
         let particles = speed.particle_count() as f64;
-        let copied = (speed.state_copy > 0.0).then_some(speed.state_copy);
+        let copied = speed.kernels.zip(speed.state_copy);
         let strain = |place: usize| Cell::number_or_missing(speed.strain.map(|strain| 100.0 * strain[place]));
         table.push(vec![
             Cell::Count(u64::from(speed.n)),
             Cell::number(speed.frame),
-            Cell::number(speed.kernels),
-            Cell::number_or_missing(copied.map(|copy| speed.kernels / copy)),
+            Cell::number_or_missing(speed.kernels),
+            Cell::number_or_missing(copied.map(|(kernels, copy)| kernels / copy)),
             Cell::Count(speed.dispatches),
             Cell::number(1e-3 * particles / speed.frame),
             strain(0),
             strain(1),
             Cell::number(speed.bytes as f64 / (particles * f64::from(speed.steps))),
-            Cell::number(1e-6 * speed.bytes as f64 / speed.kernels),
-            Cell::number_or_missing(copied.map(|copy| 1e-6 * STATE_BYTES * particles / copy)),
+            Cell::number_or_missing(speed.kernels.map(|kernels| 1e-6 * speed.bytes as f64 / kernels)),
+            Cell::number_or_missing(speed.state_copy.map(|copy| 1e-6 * STATE_BYTES * particles / copy)),
             Cell::number(speed.on_paper(MEMORIES[0].1)),
             Cell::number(speed.on_paper(MEMORIES[1].1)),
         ]);

@@ -303,11 +303,11 @@ pub fn poses() -> Vec<(&'static str, Mesh)> {
 }
 
 /// What maps of a body cost: drawing them, and sampling them once for every point of a sheet of n × n particles that falls on it [state copies of that
-/// sheet].
+/// sheet]; `None` when the clock was too coarse.
 ///
 /// # Errors
 /// [`LabError::Toile`] when they do not fit the device.
-pub fn cost(lab: &Lab, body: &Mesh, kind: MapKind, n: u32) -> Result<[f64; 2], LabError> {
+pub fn cost(lab: &Lab, body: &Mesh, kind: MapKind, n: u32) -> Result<[Option<f64>; 2], LabError> {
     let settings = Settings::new(fabric());
     let gpu = lab.gpu();
     let texel = settings.texel as f32;
@@ -332,7 +332,7 @@ pub fn cost(lab: &Lab, body: &Mesh, kind: MapKind, n: u32) -> Result<[f64; 2], L
     let cost = run.cost(lab, 5)?;
     let sampling = cost.kernels.iter().find(|(name, ..)| name.starts_with("sample_"));
     let sampling = sampling.map_or(0.0, |(_, dispatches, milliseconds)| milliseconds / f64::from(*dispatches));
-    Ok([drawing, sampling].map(|milliseconds| milliseconds / cost.state_copy))
+    Ok([drawing, sampling].map(|milliseconds| cost.in_copies(milliseconds)))
 }
 
 pub(super) fn blocks(lab: &mut Lab, progress: [f64; 2]) -> Result<Vec<Block>, LabError> {
@@ -386,7 +386,7 @@ pub(super) fn blocks(lab: &mut Lab, progress: [f64; 2]) -> Result<Vec<Block>, La
         Table::new(caption, &[["maps", ""], ["drawing", "state copies"], ["sampling once", "state copies"]]);
     for (maps, kind) in KINDS {
         let [drawing, sampling] = cost(lab, &poses[0].1, kind, n)?;
-        costs.push(vec![Cell::text(maps), Cell::number(drawing), Cell::number(sampling)]);
+        costs.push(vec![Cell::text(maps), Cell::number_or_missing(drawing), Cell::number_or_missing(sampling)]);
     }
     Ok(vec![Block::Table(table), Block::Table(of_a_ball(lab, count)?), Block::Table(costs)])
 }
