@@ -1,5 +1,6 @@
 //! What is seen before sewing: how the body stands, and how the panels stand around it; what can be mended is.
 
+mod arms;
 pub(crate) mod axis;
 mod clearing;
 mod error;
@@ -21,6 +22,7 @@ use figure::Figure;
 use finding::Finding;
 use glam::{DMat3, DVec2, DVec3};
 use laid::Laid;
+use pose::Choice;
 use section::Skin;
 use sleeves::Sleeve;
 use toile_scene::{Body, Cloth, Garment, Mesh, Motion, MovingMesh, Scene};
@@ -46,7 +48,7 @@ pub struct FitOptions {
 pub struct Fit {
     /// What is simulated.
     pub scene: Scene,
-    /// The body in the pose that it is dressed in, where that is not the first of its motion.
+    /// The body in the pose that it is dressed in, where that is not the first of its motion. Of a mesh at rest: its way from there to how it stands.
     pub dress_in: Option<MovingMesh>,
     /// What was found, in the order in which it was mended.
     pub findings: Vec<Finding>,
@@ -130,18 +132,7 @@ impl Fit {
                 self.findings.extend(following::follow(garment, &Laid::all(garment), &figure)?);
             }
         }
-        if self.dress_in.is_none()
-            && let Some(moving) = self.scene.bodies.iter().find_map(|body| match body {
-                Body::Moving(moving) => Some(moving),
-                Body::Mesh(_) | Body::Shape(_) => None,
-            })
-        {
-            let choice = pose::choose(moving, &self.garments().collect::<Vec<_>>());
-            if choice.body.is_some() {
-                self.findings.push(Finding::Pose { time: choice.time });
-                self.dress_in = choice.body;
-            }
-        }
+        self.choose_pose();
         let Some(body) = self.body() else { return Ok(()) };
         let (skin, inside) = (Skin::of(body), Inside::of(body));
         let figure = Figure::of(&skin);
@@ -162,7 +153,36 @@ impl Fit {
         Ok(())
     }
 
-    /// How many points of the panels are in a body or of a sleeve that does not lie along its arm.
+    /// Chooses the pose that garments are sewn in, where the host leaves that open.
+    fn choose_pose(&mut self) {
+        if self.dress_in.is_some() || self.body().is_none() {
+            return;
+        }
+        let garments: Vec<&Garment> = self.garments().collect();
+        let is_mesh = |body: &&Body| !matches!(body, Body::Shape(_));
+        match self.scene.bodies.iter().find(is_mesh) {
+            Some(Body::Moving(moving)) => {
+                let choice = pose::choose(moving, &garments);
+                if choice.body.is_some() {
+                    let Choice { body, time, has_raised_arms } = choice;
+                    self.dress_in = body;
+                    self.findings.push(match has_raised_arms {
+                        true => Finding::RaisedArms { time },
+                        false => Finding::Pose { time },
+                    });
+                }
+            }
+            Some(Body::Mesh(mesh)) => {
+                if let Some(way) = pose::raise_arms(mesh, &garments) {
+                    self.dress_in = Some(way);
+                    self.findings.push(Finding::RaisedArms { time: None });
+                }
+            }
+            Some(Body::Shape(_)) | None => {}
+        }
+    }
+
+    /// How many points of the panels are in a body or of a sleeve that does not lie along its arm, and how many on the ways of seams are in an arm.
     fn misfit(body: &Mesh, garments: &[&Garment]) -> usize {
         let (skin, inside) = (Skin::of(body), Inside::of(body));
         let figure = Figure::of(&skin);
@@ -172,7 +192,8 @@ impl Fit {
             let stuck: usize = panels.map(|(panel, laid)| laid.places_inside(panel, &inside).len()).sum();
             let astray =
                 figure.as_ref().map(|figure| Sleeve::astray(garment, &laid, figure, &skin)).unwrap_or_default();
-            stuck + astray.iter().map(|sleeve| sleeve.point_count(garment, &laid)).sum::<usize>()
+            let swept = figure.as_ref().map_or(0, |figure| arms::in_the_way(garment, &laid, figure, &inside));
+            stuck + swept + astray.iter().map(|sleeve| sleeve.point_count(garment, &laid)).sum::<usize>()
         };
         garments.iter().map(of_garment).sum()
     }

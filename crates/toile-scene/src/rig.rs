@@ -2,7 +2,7 @@
 
 use crate::clip::{Between, Channel, Clip, Interpolation, Keys, unit};
 use crate::{Pose, RigidKey};
-use glam::{DMat4, DQuat, DVec3};
+use glam::{DMat3, DMat4, DQuat, DVec3};
 use std::sync::Arc;
 
 /// How far a joint may end from where it starts [m] when its clip is called closed.
@@ -235,6 +235,36 @@ impl Rig {
             metres_per_unit: *metres_per_unit,
             is_closed: false,
         }))
+    }
+
+    /// The same rig without its clip as it stands at time 0, a joint turned about its own place by a rotation of the world. All that it carries goes
+    /// with it. `None` where its node has a matrix, which nothing turns, or a parent without directions.
+    pub fn with_joint_turned(&self, joint: usize, turn: DQuat) -> Option<Self> {
+        let held = self.held(0.0);
+        let Parts { nodes, order, joints, morph_weights, metres_per_unit, .. } = held.0.as_ref();
+        let mut nodes = nodes.clone();
+        let RigNode { parent, transform: LocalTransform::Parts { rotation, .. } } = &mut nodes[joints[joint].node] else {
+            return None;
+        };
+        let carrier = match parent {
+            Some(parent) => {
+                let matrix = held.node_transforms(0.0)[*parent];
+                let axes = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(|axis| axis.truncate().try_normalize());
+                let [Some(x), Some(y), Some(z)] = axes else { return None };
+                DQuat::from_mat3(&DMat3::from_cols(x, y, z))
+            }
+            None => DQuat::IDENTITY,
+        };
+        *rotation = carrier.inverse() * turn * carrier * unit(*rotation);
+        Some(Self(Arc::new(Parts {
+            nodes,
+            order: order.clone(),
+            joints: joints.clone(),
+            morph_weights: morph_weights.clone(),
+            clip: None,
+            metres_per_unit: *metres_per_unit,
+            is_closed: false,
+        })))
     }
 
     /// The same rig turned about the origin: a further node carries all that stood in the world.

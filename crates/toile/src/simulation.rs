@@ -325,11 +325,12 @@ impl Simulation {
 
     /// The meshes that garments are dressed on: bodies at rest, and those that move in the pose to dress in.
     pub(crate) fn dressing_meshes(&self) -> Vec<&Mesh> {
-        let moving = match &self.way {
-            Some(way) => vec![&way.mesh],
-            None => self.bodies.moving.iter().map(|body| &body.mesh).collect(),
-        };
-        self.bodies.still.iter().chain(moving).collect()
+        match &self.way {
+            // The way of the only mesh.
+            Some(way) if self.bodies.moving.is_empty() => vec![&way.mesh],
+            Some(way) => self.bodies.still.iter().chain([&way.mesh]).collect(),
+            None => self.bodies.still.iter().chain(self.bodies.moving.iter().map(|body| &body.mesh)).collect(),
+        }
     }
 
     /// Maps of everything at rest: the bodies and the garments that are dressed, in boxes of these bounds; `None` where there is nothing.
@@ -436,7 +437,11 @@ impl Simulation {
     pub(crate) fn outfit(&self, stage: Stage, garment_bounds: &[[Vec3; 2]]) -> Result<Outfit, Error> {
         let on_the_way = self.way.as_ref().filter(|_| stage == Stage::Posing);
         let bodies = match on_the_way {
-            Some(way) => Bodies { moving: vec![way.clone()], ..self.bodies.clone() },
+            Some(way) => {
+                // Where nothing moves otherwise, it is the way of the only mesh.
+                let still = if self.bodies.moving.is_empty() { Vec::new() } else { self.bodies.still.clone() };
+                Bodies { moving: vec![way.clone()], still, shapes: self.bodies.shapes.clone() }
+            }
             None => self.bodies.clone(),
         };
         let mut still = bounds_of(&bodies.still);

@@ -40,6 +40,8 @@ pub(crate) struct Figure {
     pub(crate) middle: DVec2,
     /// Half the width of the trunk without arms [m].
     pub(crate) half_width: f64,
+    /// How far the legs reach to the side of the middle at each cut below the crotch, from the soles on [m].
+    legs_reach: Vec<f64>,
     /// Height of the narrowest place of the neck [m].
     pub(crate) neck: f64,
     /// Height of the narrowest place of the trunk [m].
@@ -53,6 +55,8 @@ pub(crate) struct Figure {
 /// An arm, from the shoulder on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Arm {
+    /// A place in its middle where it leaves the trunk [m].
+    pub(crate) start: DVec3,
     /// Unit vector along the upper arm, away from the trunk.
     pub(crate) direction: DVec3,
 }
@@ -108,19 +112,21 @@ impl Figure {
             high,
             middle,
             half_width: 0.0,
+            legs_reach: Vec::new(),
             neck: low + neck * height,
             waist: low + waist * height,
             crotch: low + crotch * height,
             facing: facing(skin, &trunk, &main(0.1), [low, height]),
         };
         let sides = figure.left();
-        figure.half_width = trunk
-            .iter()
-            .flat_map(|ring| {
-                let [a, b] = ring.bounds;
-                [a, b, DVec2::new(a.x, b.y), DVec2::new(b.x, a.y)].map(|corner| (corner - middle).dot(sides).abs())
-            })
-            .fold(0.0, f64::max);
+        let reach = |ring: &Ring| {
+            let [a, b] = ring.bounds;
+            let corners = [a, b, DVec2::new(a.x, b.y), DVec2::new(b.x, a.y)];
+            corners.map(|corner| (corner - middle).dot(sides).abs()).into_iter().fold(0.0, f64::max)
+        };
+        figure.half_width = trunk.iter().map(|ring| reach(ring)).fold(0.0, f64::max);
+        let legs = cuts.iter().take_while(|(part, _)| *part <= crotch);
+        figure.legs_reach = legs.map(|(_, rings)| rings.iter().take(2).map(reach).fold(0.0, f64::max)).collect();
         Some(figure)
     }
 
@@ -140,6 +146,12 @@ impl Figure {
         (DVec2::new(place.x, place.z) - self.middle).dot(self.left())
     }
 
+    /// Away from the middle on the person's left, or on the other side, a unit vector.
+    pub(crate) fn out(&self, is_left: bool) -> DVec3 {
+        let left = self.left();
+        DVec3::new(left.x, 0.0, left.y) * if is_left { 1.0 } else { -1.0 }
+    }
+
     /// The part of the person that a place of it [m] belongs to, in a word.
     pub(crate) fn part_at(&self, place: DVec3) -> &'static str {
         let leftward = self.leftward(place);
@@ -156,10 +168,13 @@ impl Figure {
         }
     }
 
-    /// Whether a place [m] of the person is of an arm: far to the side, and no foot of a person who straddles.
-    fn is_arm(&self, place: DVec3) -> bool {
+    /// Whether a place [m] of the person is of an arm: far to the side, and no leg of a person who straddles.
+    pub(crate) fn is_arm(&self, place: DVec3) -> bool {
         let rise = (place.y - self.low) / self.height();
-        rise > 0.3 && self.leftward(place).abs() > ARM_DISTANCE * self.half_width
+        let cut = (rise * CUT_COUNT as f64) as usize;
+        let legs = self.legs_reach.get(cut.saturating_sub(1)..).unwrap_or_default();
+        let legs = legs.iter().take(3).copied().fold(0.0, f64::max);
+        rise > 0.3 && self.leftward(place).abs() > ARM_DISTANCE * self.half_width.max(legs)
     }
 
     /// The arm of the left, or the other one; `None` where it does not stand off from the trunk.
@@ -180,9 +195,10 @@ impl Figure {
         };
         // Where the arm hangs steeply it does not reach far to the side.
         let reach = arm.iter().map(|(beyond, _)| *beyond).fold(0.0, f64::max);
+        let start = centre(0.0)?;
         let direction =
-            (centre((UPPER_ARM * self.height()).min(reach - band).max(band))? - centre(0.0)?).try_normalize()?;
-        Some(Arm { direction })
+            (centre((UPPER_ARM * self.height()).min(reach - band).max(band))? - start).try_normalize()?;
+        Some(Arm { start, direction })
     }
 }
 

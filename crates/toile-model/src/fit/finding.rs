@@ -87,6 +87,11 @@ pub enum Finding {
         /// Where it stands.
         place: InBody,
     },
+    /// The body is dressed with level arms: seams would have closed around them.
+    RaisedArms {
+        /// The time in its clip of all else [s]; `None` without the clip.
+        time: Option<f64>,
+    },
     /// The body is dressed in another pose than the first of its motion.
     Pose {
         /// The time in its clip [s]; `None` without the clip.
@@ -120,6 +125,7 @@ impl Finding {
             | Self::MovedGarment { .. }
             | Self::TurnedSleeve { .. }
             | Self::MovedPanel { .. }
+            | Self::RaisedArms { .. }
             | Self::Pose { .. } => false,
         }
     }
@@ -175,6 +181,9 @@ impl fmt::Display for Finding {
             }
             Self::LeftPanel { garment, panel, place } => {
                 write!(f, "panel {panel} of garment {garment} stands {place}, and no way out of it is free")
+            }
+            Self::RaisedArms { .. } => {
+                write!(f, "dressed with level arms: seams would have closed around them as they hang")
             }
             Self::Pose { time: None } => {
                 write!(f, "dressed without the clip: there the body stands clearer of the panels")

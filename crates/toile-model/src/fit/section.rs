@@ -9,8 +9,10 @@ use toile_scene::Mesh;
 pub(crate) struct Skin {
     /// Places [m].
     pub(crate) places: Vec<DVec3>,
-    /// Vertices of each triangle.
-    triangles: Vec<[u32; 3]>,
+    /// Index into `places` of each vertex of the mesh.
+    pub(crate) of_vertex: Vec<u32>,
+    /// Indices into `places` of the corners of each triangle.
+    pub(crate) triangles: Vec<[u32; 3]>,
 }
 
 /// One piece of a cut: the outline of a limb, a trunk or a head. Its plane has the axes x and z.
@@ -45,7 +47,7 @@ impl Skin {
         let of_vertex: Vec<u32> = mesh.positions.iter().map(|place| index_of(turn * place.as_dvec3())).collect();
         let triangles =
             mesh.triangles.iter().map(|triangle| triangle.map(|vertex| of_vertex[vertex as usize])).collect();
-        Self { places, triangles }
+        Self { places, of_vertex, triangles }
     }
 
     /// Smallest and largest height [m].

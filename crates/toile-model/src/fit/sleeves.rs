@@ -24,39 +24,18 @@ pub(crate) struct Sleeve {
 }
 
 impl Sleeve {
-    /// The sleeves of a garment that do not lie along their arms. Panels with a collar are the trunk of a garment; its sleeves are sewn to
-    /// them and lie beyond them.
+    /// The sleeves of a garment that do not lie along their arms.
     pub(crate) fn astray(garment: &Garment, laid: &[Laid], figure: &Figure, skin: &Skin) -> Vec<Self> {
         [true, false].into_iter().filter_map(|is_left| Self::of(garment, laid, figure, skin, is_left)).collect()
     }
 
     fn of(garment: &Garment, laid: &[Laid], figure: &Figure, skin: &Skin, is_left: bool) -> Option<Self> {
         let arm = figure.arm(skin, is_left)?.direction;
-        let side = if is_left { 1.0 } else { -1.0 };
-        let is_trunk: Vec<bool> = garment
-            .panels
-            .iter()
-            .map(|panel| {
-                panel.edges.iter().any(|edge| edge.label.as_ref().is_some_and(|label| label.contains("collar")))
-            })
-            .collect();
-        let trunk = garment.panels.iter().zip(laid).zip(&is_trunk).filter(|(_, is_trunk)| **is_trunk);
-        let reach = trunk
-            .flat_map(|((panel, laid), _)| laid.places(panel))
-            .map(|place| side * figure.leftward(place))
-            .fold(f64::NEG_INFINITY, f64::max);
-        if !reach.is_finite() {
-            return None;
-        }
-        let is_beyond = |panel: usize| {
-            let middle = laid[panel].middle(&garment.panels[panel]);
-            !is_trunk[panel] && side * figure.leftward(middle) > reach
-        };
-        let panels: Vec<usize> = (0..garment.panels.len()).filter(|panel| is_beyond(*panel)).collect();
+        let panels = panels(garment, laid, figure, is_left);
         let has = |side: &EdgeRef| panels.contains(&side.panel);
         let (mut pivot, mut armhole) = (DVec3::ZERO, 0.0);
         let mut along = DVec3::ZERO;
-        let out = leftward(figure) * side;
+        let out = figure.out(is_left);
         for seam in &garment.seams {
             let [one, other] = &seam.sides;
             match (has(one), has(other)) {
@@ -110,14 +89,29 @@ impl Sleeve {
     }
 }
 
+/// Indices of the panels of a sleeve. Panels with a collar are the trunk of a garment; its sleeves lie beyond them.
+pub(crate) fn panels(garment: &Garment, laid: &[Laid], figure: &Figure, is_left: bool) -> Vec<usize> {
+    let side = if is_left { 1.0 } else { -1.0 };
+    let is_trunk: Vec<bool> = garment
+        .panels
+        .iter()
+        .map(|panel| panel.edges.iter().any(|edge| edge.label.as_ref().is_some_and(|label| label.contains("collar"))))
+        .collect();
+    let trunk = garment.panels.iter().zip(laid).zip(&is_trunk).filter(|(_, is_trunk)| **is_trunk);
+    let reach = trunk
+        .flat_map(|((panel, laid), _)| laid.places(panel))
+        .map(|place| side * figure.leftward(place))
+        .fold(f64::NEG_INFINITY, f64::max);
+    let is_beyond = |panel: &usize| {
+        let middle = laid[*panel].middle(&garment.panels[*panel]);
+        !is_trunk[*panel] && reach.is_finite() && side * figure.leftward(middle) > reach
+    };
+    (0..garment.panels.len()).filter(is_beyond).collect()
+}
+
 /// Where a person faces, +z where that is not known.
 fn forward(figure: &Figure) -> DVec3 {
     figure.facing.map_or(DVec3::Z, |facing| DVec3::new(facing.x, 0.0, facing.y))
-}
-
-/// Towards the left of a person.
-fn leftward(figure: &Figure) -> DVec3 {
-    DVec3::Y.cross(forward(figure))
 }
 
 /// The ends of an edge as it is placed [m].
