@@ -29,6 +29,13 @@ pub fn simulate(
     }
     let fit = fit::look(scene, options)?;
     let scene = &fit.scene;
+    if fit.dress_in.is_some() && running.place.backend == Backend::Reference {
+        bail!(
+            "--backend reference: seams of {} would close around the arms as they hang, and the reference knows bodies at rest alone: \
+             a device raises them, or give a body whose arms are level",
+            scene.name
+        );
+    }
     if !running.quiet {
         fit::tell(&fit);
     }

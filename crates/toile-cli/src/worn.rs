@@ -1,6 +1,7 @@
 //! The cloths of a scene that have been simulated, and the way there.
 
 use crate::args::Running;
+use crate::bodies::{meshes, shapes};
 use crate::engine::{Computer, Engine};
 use crate::look::{Look, State};
 use crate::outcome;
@@ -10,7 +11,9 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 use toile::Stage;
 use toile::gpu::PassTime;
-use toile::model::{DressingStage, Fit, Model, Status, StepSettings, Verdict};
+use toile::model::{
+    CALM_FRAMES, DressingStage, Fit, Judged, Model, Motion, REST_SPEED, Solid, Status, StepSettings, Verdict,
+};
 use toile::scene::{Cloth, Mesh, Scene};
 
 /// A cloth that has been simulated.
@@ -69,6 +72,9 @@ impl Log {
     }
 }
 
+/// Longest simulated time that dressed garments have to come to rest once the body stands as it is given [s].
+const HANGING_SECONDS: f64 = 6.0;
+
 /// Dresses the garments of a scene one over the other; where it has sheets, everything then runs for its frames.
 pub fn run(fit: &Fit, frames: u32, computer: &Computer, running: &Running) -> Result<Vec<Worn>> {
     let scene = &fit.scene;
@@ -78,8 +84,13 @@ pub fn run(fit: &Fit, frames: u32, computer: &Computer, running: &Running) -> Re
     let of_garments = scene.cloths.iter().zip(&mut logs).filter(|(cloth, _)| matches!(cloth, Cloth::Garment(_)));
     let hides = running.hides_progress();
     dress(&mut engine, &mut of_garments.map(|(_, log)| log).collect::<Vec<_>>(), seconds, hides)?;
-    let mut dressed = engine.dressings().into_iter().zip(engine.verdicts()?);
-    if scene.cloths.iter().any(|cloth| matches!(cloth, Cloth::Sheet(_))) {
+    let (dressings, mut verdicts) = (engine.dressings(), engine.verdicts()?);
+    let has_sheets = scene.cloths.iter().any(|cloth| matches!(cloth, Cloth::Sheet(_)));
+    if fit.dress_in.is_some() && !has_sheets {
+        verdicts = hang(&mut engine, scene, seconds, hides)?;
+    }
+    let mut dressed = dressings.into_iter().zip(verdicts);
+    if has_sheets {
         run_frames(&mut engine, &mut logs, scene, frames, seconds, hides)?;
     }
     let (states, bytes) = (engine.states()?, engine.bytes());
@@ -146,6 +157,41 @@ pub fn dress(engine: &mut Engine<'_>, logs: &mut [&mut Log], seconds: f64, hides
             progress.say(stage_line(stage, look));
         }
     }
+}
+
+/// Goes over from the pose that garments were sewn in to how the body stands, and on until they are at rest or their time is up; how they are
+/// worn then.
+fn hang(engine: &mut Engine<'_>, scene: &Scene, seconds: f64, hides_progress: bool) -> Result<Vec<Verdict>> {
+    let progress = Progress::new("arms", hides_progress);
+    // No time passes: what comes next begins.
+    engine.frame(0.0)?;
+    while engine.stage()? != Stage::Running {
+        engine.frame(seconds)?;
+        engine.frame(0.0)?;
+        progress.say("lowering".into());
+    }
+    let mut motions = vec![Motion::default(); scene.cloths.len()];
+    let mut calm_frames = 0;
+    for frame in 0..(HANGING_SECONDS / seconds) as u64 {
+        engine.frame(seconds)?;
+        for (motion, state) in motions.iter_mut().zip(engine.states()?) {
+            motion.see(frame + 1, state.positions, seconds as f32);
+        }
+        let is_calm = motions.iter().all(|motion| motion.speed().is_some_and(|speed| speed <= REST_SPEED));
+        calm_frames = if is_calm { calm_frames + 1 } else { 0 };
+        progress.say(format!("hanging, frame {frame}"));
+        if calm_frames >= CALM_FRAMES {
+            break;
+        }
+    }
+    progress.finish("lowered".into());
+    let shapes: Vec<Mesh> = shapes(scene).iter().map(|shape| shape.mesh(0.0)).collect();
+    let body = Solid::of(meshes(scene).chain(&shapes));
+    let is_at_rest = calm_frames >= CALM_FRAMES;
+    let judged = engine.cloths()?.into_iter().zip(&motions).map(|(look, motion)| {
+        Verdict::of(&Judged::new(look.model, motion.positions(), motion.velocities(), is_at_rest), &body)
+    });
+    Ok(judged.collect())
 }
 
 fn stage_line(stage: Stage, look: &Look<'_>) -> String {

@@ -23,7 +23,7 @@ pub use fit::finding::{Finding, InBody};
 pub use fit::{Fit, FitError, FitOptions};
 pub use mesh::geometry::NO_CORNER;
 pub use mesh::inside::Inside;
-pub use run::dressing::{Dressing, DressingStage};
+pub use run::dressing::{CALM_FRAMES, Dressing, DressingStage, REST_SPEED};
 pub use run::map_box::MapBox;
 pub use run::motion::Motion;
 pub use run::piece::{Open, Piece, raised_ways};

@@ -8,9 +8,9 @@ use toile_scene::Rule;
 /// Seams count as closed when no gap is wider than this [m].
 pub(crate) const SEAM_GAP: f32 = 0.002;
 /// A garment is at rest when its particles move from frame to frame with this speed [m/s] or less, as the root of the mean square.
-pub(crate) const REST_SPEED: f32 = 0.02;
+pub const REST_SPEED: f32 = 0.02;
 /// For so many frames on end: a swing has no speed at its turning points.
-const CALM_FRAMES: u32 = 10;
+pub const CALM_FRAMES: u32 = 10;
 /// Longest simulated time that seams have to close [s].
 const SEWING_SECONDS: f32 = 10.0;
 /// Seams are stuck when the widest does not close by this [m] ...
