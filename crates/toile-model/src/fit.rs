@@ -182,20 +182,37 @@ impl Fit {
         }
     }
 
-    /// How many points of the panels are in a body or of a sleeve that does not lie along its arm, and how many on the ways of seams are in an arm.
-    fn misfit(body: &Mesh, garments: &[&Garment]) -> usize {
+    /// How badly a body stands for garments as they are placed.
+    fn misfit(body: &Mesh, garments: &[&Garment]) -> Misfit {
         let (skin, inside) = (Skin::of(body), Inside::of(body));
         let figure = Figure::of(&skin);
-        let of_garment = |garment: &&Garment| {
+        let mut misfit = Misfit::default();
+        for garment in garments {
             let laid = Laid::all(garment);
             let panels = garment.panels.iter().zip(&laid);
-            let stuck: usize = panels.map(|(panel, laid)| laid.places_inside(panel, &inside).len()).sum();
-            let astray =
-                figure.as_ref().map(|figure| Sleeve::astray(garment, &laid, figure, &skin)).unwrap_or_default();
-            let swept = figure.as_ref().map_or(0, |figure| arms::in_the_way(garment, &laid, figure, &inside));
-            stuck + swept + astray.iter().map(|sleeve| sleeve.point_count(garment, &laid)).sum::<usize>()
-        };
-        garments.iter().map(of_garment).sum()
+            misfit.points += panels.map(|(panel, laid)| laid.places_inside(panel, &inside).len()).sum::<usize>();
+            if let Some(figure) = &figure {
+                let astray = Sleeve::astray(garment, &laid, figure, &skin);
+                misfit.points += astray.iter().map(|sleeve| sleeve.point_count(garment, &laid)).sum::<usize>();
+                misfit.swept += arms::in_the_way(garment, &laid, figure, &inside);
+            }
+        }
+        misfit
+    }
+}
+
+/// How badly a body stands for garments as they are placed.
+#[derive(Clone, Copy, Debug, Default)]
+struct Misfit {
+    /// Points of panels that are in the body, or of a sleeve that does not lie along its arm.
+    points: usize,
+    /// Points on the ways of seams that are in an arm without a sleeve.
+    swept: usize,
+}
+
+impl Misfit {
+    fn all(self) -> usize {
+        self.points + self.swept
     }
 }
 

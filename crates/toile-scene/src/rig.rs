@@ -243,7 +243,8 @@ impl Rig {
         let held = self.held(0.0);
         let Parts { nodes, order, joints, morph_weights, metres_per_unit, .. } = held.0.as_ref();
         let mut nodes = nodes.clone();
-        let RigNode { parent, transform: LocalTransform::Parts { rotation, .. } } = &mut nodes[joints[joint].node] else {
+        let RigNode { parent, transform: LocalTransform::Parts { rotation, .. } } = &mut nodes[joints[joint].node]
+        else {
             return None;
         };
         let carrier = match parent {

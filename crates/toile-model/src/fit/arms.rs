@@ -139,13 +139,8 @@ pub(crate) fn jointed(mesh: &Mesh) -> Option<MovingMesh> {
     let mut shares = Vec::new();
     for (is_left, name) in [(true, "left arm"), (false, "right arm")] {
         let Some((pivot, share)) = share_of_arm(&skin, &figure, is_left) else { continue };
-        let transform =
-            LocalTransform::Parts { translation: pivot, rotation: DQuat::IDENTITY, scale: DVec3::ONE };
-        joints.push(Joint {
-            name: name.into(),
-            node: nodes.len(),
-            inverse_bind: DMat4::from_translation(-pivot),
-        });
+        let transform = LocalTransform::Parts { translation: pivot, rotation: DQuat::IDENTITY, scale: DVec3::ONE };
+        joints.push(Joint { name: name.into(), node: nodes.len(), inverse_bind: DMat4::from_translation(-pivot) });
         nodes.push(RigNode { parent: Some(0), transform });
         shares.push(share);
     }

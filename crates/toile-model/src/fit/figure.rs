@@ -196,8 +196,7 @@ impl Figure {
         // Where the arm hangs steeply it does not reach far to the side.
         let reach = arm.iter().map(|(beyond, _)| *beyond).fold(0.0, f64::max);
         let start = centre(0.0)?;
-        let direction =
-            (centre((UPPER_ARM * self.height()).min(reach - band).max(band))? - start).try_normalize()?;
+        let direction = (centre((UPPER_ARM * self.height()).min(reach - band).max(band))? - start).try_normalize()?;
         Some(Arm { start, direction })
     }
 }

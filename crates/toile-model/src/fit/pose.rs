@@ -27,14 +27,16 @@ pub(crate) struct Choice {
 /// that strides would stand in front of them.
 pub(crate) fn choose(body: &MovingMesh, garments: &[&Garment]) -> Choice {
     let mut best = Choice { body: None, time: Some(0.0), has_raised_arms: false };
-    let mut least = Fit::misfit(&body.mesh, garments);
+    let first = Fit::misfit(&body.mesh, garments);
+    let mut least = first.all();
     if least == 0 {
         return best;
     }
     let resting = || body.at_rest().map(|resting| (resting, None, false));
     let raised = || {
         let resting = body.at_rest().and_then(|resting| arms::raised(&resting)).map(|raised| (raised, None, true));
-        resting.into_iter().chain(arms::raised(body).map(|raised| (raised, Some(0.0), true)))
+        let raised = resting.into_iter().chain(arms::raised(body).map(|raised| (raised, Some(0.0), true)));
+        raised.filter(|_| first.swept > 0)
     };
     let posed = (1..=POSE_COUNT).filter_map(|index| {
         let time = body.duration() * f64::from(index) / f64::from(POSE_COUNT + 1);
@@ -45,7 +47,7 @@ pub(crate) fn choose(body: &MovingMesh, garments: &[&Garment]) -> Choice {
         if time.is_some() && middle(&pose.mesh).distance(middle(&body.mesh)) > STAND {
             continue;
         }
-        let misfit = Fit::misfit(&pose.mesh, garments);
+        let misfit = Fit::misfit(&pose.mesh, garments).all();
         if misfit < least {
             least = misfit;
             best = Choice { body: Some(pose), time, has_raised_arms };
@@ -57,18 +59,16 @@ pub(crate) fn choose(body: &MovingMesh, garments: &[&Garment]) -> Choice {
     best
 }
 
-/// The way of a body at rest from level arms to how it stands, if that stands clearer.
+/// The way of a body at rest from level arms to how it stands, where seams would close around them and it stands clearer so.
 pub(crate) fn raise_arms(body: &Mesh, garments: &[&Garment]) -> Option<MovingMesh> {
-    let least = Fit::misfit(body, garments);
-    if least == 0 {
+    let standing = Fit::misfit(body, garments);
+    if standing.swept == 0 {
         return None;
     }
     let jointed = arms::jointed(body)?;
     let raised = arms::raised(&jointed)?;
-    if Fit::misfit(&raised.mesh, garments) >= least {
-        return None;
-    }
-    MovingMesh::transition(&raised, &jointed, LOWERING_SECONDS)
+    (Fit::misfit(&raised.mesh, garments).all() < standing.all())
+        .then(|| MovingMesh::transition(&raised, &jointed, LOWERING_SECONDS))?
 }
 
 fn middle(mesh: &Mesh) -> Vec3 {
