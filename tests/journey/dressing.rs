@@ -1,9 +1,10 @@
 //! From garments and a body to a walk, without waiting.
 
-use crate::support::{advance, gpu, start, walking, woman};
+use crate::support::{advance, gpu, standing, start, walking, woman};
 use std::collections::VecDeque;
 use toile::{Error, Simulation, Stage};
-use toile_model::Flaw;
+use toile_model::{Finding, Fit, FitOptions, Flaw, Solid, crossed_particles};
+use toile_scene::Scene;
 
 /// Frames that a host has under way, as a swap chain has.
 const FRAMES_UNDER_WAY: usize = 2;
@@ -50,6 +51,40 @@ fn a_striding_woman_is_dressed_and_walks() {
     assert!(0.3 < low && 0.85 < high && high < 1.2, "from {low} to {high} m it hangs from her waist");
     assert!((simulation.time() - 0.2).abs() < 0.02, "{} s of the walk", simulation.time());
     assert!(simulation.bodies().next().is_some_and(|body| body.index_count > 10_000), "a host can draw her");
+}
+
+/// Side seams of a circle skirt close where the hands of who stands with hanging arms are.
+#[test]
+fn a_mesh_at_rest_is_dressed_with_level_arms_and_lowers_them() {
+    let (scene, mesh) = standing("circle_skirt", 1.0);
+    let mut simulation = start(&scene);
+    assert!(matches!(simulation.findings(), [Finding::RaisedArms { .. }]), "{:?}", simulation.findings());
+    drive(&mut simulation, Stage::Dressed);
+    assert_eq!(most_limbs(&simulation), 2, "her legs");
+    assert_eq!(drive(&mut simulation, Stage::Running), [Stage::Dressed, Stage::Posing, Stage::Running]);
+    advance(&mut simulation, 0.5);
+    let worn = simulation.cloths().next().expect("the skirt");
+    let positions = gpu().vec3s(&worn.cloth.frame().positions);
+    let (crossed, depth) = crossed_particles(worn.model, &positions, &Solid::of([&mesh]));
+    assert!(crossed.is_empty(), "{crossed:?} up to {depth} m");
+    let top = positions.iter().map(|p| p.y).fold(0.0, f32::max);
+    assert!(0.85 < top && top < 1.15, "{top} m: it hangs from her waist");
+    let mut simulation = Simulation::fitted(&gpu().device, &as_she_stands(&scene)).expect("it can be sewn");
+    drive(&mut simulation, Stage::Dressed);
+    assert_eq!(most_limbs(&simulation), 4, "her legs and her hands");
+}
+
+/// How many limbs go through the widest opening of the first garment.
+fn most_limbs(simulation: &Simulation) -> u32 {
+    let verdicts = simulation.verdicts(&gpu().queue).expect("a device");
+    verdicts[0].openings.iter().map(|opening| opening.limb_count).max().expect("it has openings")
+}
+
+/// What was found without the pose that was found for it.
+fn as_she_stands(scene: &Scene) -> Fit {
+    let mut fit = Fit::new(scene, &FitOptions::default()).expect("it can be dressed");
+    fit.dress_in = None;
+    fit
 }
 
 #[test]

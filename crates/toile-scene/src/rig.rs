@@ -531,6 +531,30 @@ mod tests {
     }
 
     #[test]
+    fn a_joint_turns_about_its_own_place_and_takes_along_what_it_carries() {
+        let quarter = DQuat::from_rotation_z(TAU / 4.0);
+        let placed = |parent, x, rotation| RigNode {
+            parent,
+            transform: LocalTransform::Parts { translation: dvec3(x, 0.0, 0.0), rotation, scale: DVec3::splat(2.0) },
+        };
+        // A trunk that is turned itself, an arm and a hand, each one unit along the x of what carries it.
+        let nodes =
+            vec![placed(None, 1.0, quarter), placed(Some(0), 1.0, quarter), placed(Some(1), 1.0, DQuat::IDENTITY)];
+        let rig = Rig::new(nodes, vec![joint(0), joint(1), joint(2)], vec![], None, 0.5).expect("no circle");
+        let places = |rig: &Rig| [0, 1, 2].map(|joint| rig.joint_place(joint, 0.0).w_axis.truncate());
+        let before = places(&rig);
+        let turn = DQuat::from_rotation_x(0.7);
+        let turned = rig.with_joint_turned(1, turn).expect("it has parts");
+        let [trunk, arm, hand] = places(&turned);
+        assert!(trunk.distance(before[0]) < 1e-12 && arm.distance(before[1]) < 1e-12, "{trunk} {arm}");
+        let expected = before[1] + turn * (before[2] - before[1]);
+        assert!((before[2] - before[1]).length() > 1.0 && hand.distance(expected) < 1e-12, "{hand} {expected}");
+        let fixed = RigNode { parent: None, transform: LocalTransform::Matrix(DMat4::IDENTITY) };
+        let fixed = Rig::new(vec![fixed], vec![joint(0)], vec![], None, 1.0).expect("no circle");
+        assert!(fixed.with_joint_turned(0, turn).is_none());
+    }
+
+    #[test]
     fn a_circle_of_parents_is_refused() {
         let circle = vec![node(None), node(Some(2)), node(Some(1))];
         assert_eq!(Rig::new(circle, vec![], vec![], None, 1.0).expect_err("a circle"), OwnAncestor { node: 1 });

@@ -89,7 +89,8 @@ pub(crate) enum Phase {
 impl Simulation {
     /// A scene at its start; `kernels` is a device, or the pipelines that other simulations on it use. Before anything is sewn, [`Fit`] looks at how body and panels stand, and mends what it can; see
     /// [`Simulation::findings`]. A body that moves is dressed in the first of these poses that stands clear of the panels, or else in the clearest:
-    /// the first of its motion, that without any clip, those of its clip; it goes over to its motion in a second.
+    /// the first of its motion, that without any clip, both with level arms if seams would close around these, those of its clip; it goes over to its
+    /// motion in a second. So does a mesh at rest whose arms are in the way of seams: it is dressed with level arms, which then go down.
     ///
     /// # Errors
     /// [`Error::Fit`] when what stands in the way of sewing cannot be mended, [`Error::Model`] when a garment cannot be meshed or a frame would take
