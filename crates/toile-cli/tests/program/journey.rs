@@ -556,6 +556,26 @@ fn an_outfit_walks_together() {
 }
 
 /// A body that lies is turned, which is told before sewing, and the skirt hangs where it belongs.
+/// Its side seams close where the hands are, so it is sewn with level arms; what is written and judged is the body as it was given.
+#[test]
+fn arms_that_were_raised_are_down_again_in_the_result() {
+    let journey = Journey::new();
+    let skirt = fixture("garments/circle_skirt.json");
+    let dress = ["dress", "--garment", &skirt, "--spacing", "6cm", "--texel", "2cm"];
+    let output = journey.run(&[&dress[..], &["--json"]].concat());
+    assert!(output.status.success(), "{output:?}");
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(told.contains("note: dressed with level arms"), "{told}");
+    let metrics: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(metrics["cloths"][0]["verdict"]["word"], "on", "{metrics}");
+    assert_eq!(metrics["crossed_count"], 0);
+    let openings = metrics["cloths"][0]["verdict"]["openings"].as_array().expect("openings");
+    assert_eq!(openings.iter().filter_map(|opening| opening["limb_count"].as_u64()).max(), Some(2), "{metrics}");
+    let sentence = refused(journey.run(&[&dress[..], &["--backend", "reference", "--out", "other"]].concat()));
+    assert!(sentence.starts_with("--backend reference: seams of outfit would close around the arms"), "{sentence}");
+    assert_eq!(journey.names(""), ["out"]);
+}
+
 #[test]
 fn a_body_that_lies_is_turned_and_dressed() {
     let journey = Journey::new();
