@@ -3,6 +3,12 @@
 //! Nothing here creates a device, submits, or waits, except what the feature `native-wait` brings: `readback`, `Timer`, `Solver::time_step` and
 //! `Kernels::make_all`, which are for tests, benches and programs that write files.
 
+#[cfg(target_arch = "wasm32")]
+const _: () = assert!(
+    wgpu::Instance::enabled_backend_features().contains(wgpu::Backends::BROWSER_WEBGPU),
+    "in a browser there is WebGPU alone"
+);
+
 mod all_made;
 mod buffers;
 mod constants;

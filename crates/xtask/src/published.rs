@@ -48,7 +48,8 @@ fn browser() -> Result<(), String> {
     }
     // A host for the web leaves out what waits.
     cargo(&["check", "--package", "toile", "--target", WASM, "--no-default-features", "--features", "files"])?;
-    cargo(&["check", "--package", "toile", "--target", WASM])
+    cargo(&["check", "--package", "toile", "--target", WASM])?;
+    cargo(&["check", "--package", "toile", "--target", WASM, "--no-default-features", "--example", "web"])
 }
 
 /// Units stand in brackets in this documentation, so rustdoc takes them for links and its own lint is off.

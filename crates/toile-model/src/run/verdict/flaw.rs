@@ -8,6 +8,7 @@ use std::fmt;
 /// What can be wrong with how a garment is worn.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "what", rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Flaw {
     /// Seams did not close; they are left as they are.
     SeamOpen {
